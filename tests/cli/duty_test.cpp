@@ -139,7 +139,7 @@ duties:
   CHECK(outcome.out.find("These hours begin now") != std::string::npos);
   CHECK_THAT(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out,
              Catch::Contains("\"duty\":\"alone\"") &&
-                 Catch::Contains("\"do_not_plan\":[\"one (bend radius, forces)\"],\"warning_list\":[{"));
+                 Catch::Contains("\"do_not_plan\":[\"one (bend radius, forces, calibration)\"],\"warning_list\":[{"));
 }
 
 TEST_CASE(
