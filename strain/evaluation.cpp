@@ -238,7 +238,10 @@ void Evaluation::end_first_pass() {
   const ShortenedPlan of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;
-  evening_.straight = of.longest >= 0 && of.plan[of.longest].sliding == Sliding::clamp_to_clamp;
+  if (of.longest < 0) return;
+  evening_.straight = of.plan[of.longest].sliding == Sliding::clamp_to_clamp;
+  constexpr double slant = 1.2;  // a lay along its helix of up to 33 deg, over the same along the cable
+  evening_.own_lay = of.evening <= slant * construction_.layers()[of.longest].pitch();
 }
 
 void Evaluation::add_again(const DeformationHistory& block) {

@@ -149,11 +149,11 @@ class Evaluation {
   /// bend_wave: length over which the span's curvature changes, 2 pi rms/rms of its slope, of the part that varies in time [m];
   /// infinite: no bend, or an even one. layer: of the layers on which friction has an effect, the one whose strain evens out over the
   /// greatest length; -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer evens out from clamp to clamp,
-  /// because it has no lay or fewer than four turns.
+  /// because it has no lay or fewer than four turns. own_lay: it evens out over its own lay.
   struct BendScale {
     double bend_wave = HUGE_VAL, longest = 0;
     int layer = -1;
-    bool straight = false;
+    bool straight = false, own_lay = false;
   };
   const BendScale& evening() const { return evening_; }
 

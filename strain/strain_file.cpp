@@ -428,24 +428,38 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::Job& job,
   return warnings;
 }
 
+/// Returns whether the lay of a layer is an estimate of a data sheet, whose layers have the names `core` and `wire`.
+bool has_estimated_lay(const pipeline::Dresspack& dresspack, const std::string& layer) {
+  const char* const key = layer.ends_with("/wire") ? " wire_lay_length_mm" : " lay_length_mm";
+  return dresspack.estimates.find(key) != std::string::npos;
+}
+
 /// Returns warnings of layers whose strain evens out over too great a length for the closed forms of friction (strain/slip.h).
-std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations,
+                                      const pipeline::Job& job) {
+  constexpr double most_held = 2.5;  // times the computed strain
   std::vector<Warning> all;
+  if (job.strain.factors.friction >= most_held) return all;
   for (const auto& evaluation : evaluations) {
     const Evaluation::BendScale& of = evaluation->evening();
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
+    const std::string layer = evaluation->name_of_layer(of.layer);
+    const bool estimated = !of.straight && has_estimated_lay(job.dresspacks[evaluation->dresspack()].dresspack, layer);
+    const std::string most =
+        fmt::format("strain.friction_factor: {:g}, which counts with the most that friction could hold", most_held);
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",
         fmt::format(
             "the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
-            "second {:g}): friction could hold up to 2.5 times as much strain",
-            evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
-        of.straight
-            ? "it has no lay, or fewer than four turns"
+            "second {:g}): friction could hold up to {:g} times as much strain",
+            layer, of.longest, of.bend_wave, believable_evening, most_held),
+        of.straight ? "it has no lay, or fewer than four turns"
+        : of.own_lay
+            ? fmt::format("its lay length{} is not short beside the bend", estimated ? ", an ESTIMATE," : "")
             : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
               "equal",
-        "strain.friction_factor: 2.5, which counts with the most that friction could hold; or the hand and the lay length that "
-        "the cable's maker states"));
+        estimated ? fmt::format("the lay length that the cable's maker states, in data_sheet; or {}", most)
+                  : most + "; or the hand and the lay length that the cable's maker states"));
   }
   return all;
 }
@@ -647,7 +661,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.add(starts);
   static_cast<void>(pipeline::warnings_of_descriptions(job));  // for its errors; dresslife-fatigue writes the warnings
   const std::vector<Warning> warnings =
-      pipeline::joined(evening_warnings(evaluations), write_cables(strain, job, evaluations));
+      pipeline::joined(evening_warnings(evaluations, job), write_cables(strain, job, evaluations));
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);

@@ -445,7 +445,15 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   const auto below = [&](const std::string& words) { return wrapped(one_line(words), width, indent); };
   std::string text, details;
   std::vector<RankingRow> detailed;  // rows with a table of modes
-  if (rows.size() == 1 && rows[0].done()) text += wrapped(action_words(rows[0]), width, "") + '\n';
+  if (rows.size() == 1 && rows[0].done()) {
+    const std::string action = action_words(rows[0]);
+    const bool can_move = action.starts_with("Plan") && !rows[0].worst_joint.empty();
+    const char* const longer =
+        can_move
+            ? " dresslife improve JOB searches for better clamps and lengths, dresslife reprogram JOB for gentler moves."
+            : "";
+    text += wrapped(action + longer, width, "") + '\n';
+  }
   text += table_line(columns, [](const Column& column) { return column.title; });
   for (std::size_t i = 0; i < selected.indices.size(); ++i) {
     const RankingRow& row = rows[selected.indices[i]];

@@ -165,6 +165,13 @@ std::string inspection_words(const RankingRow& row) {
       {first_inspection_words(row), further.empty() ? "" : fmt::format("Inspect also for: {}.", further.substr(2))});
 }
 
+/// Returns whether a wire is one of a conductor. A cable that is the only one of its part has no number in the conductor's name.
+bool is_in(const std::string& conductor, std::string wire) {
+  if (wire.starts_with(conductor + "/")) return true;
+  if (const std::size_t only = wire.find(" 1/"); only != std::string::npos) wire.erase(only, 2);
+  return wire.starts_with(conductor + "/");
+}
+
 }  // namespace
 
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
@@ -349,8 +356,7 @@ std::string failure_words(const RankingRow& row) {
                         100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
                         failing_place_words(row));
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
-  const bool elsewhere =
-      !row.failing_conductor.empty() && !row.worst_component.starts_with(row.failing_conductor + "/");
+  const bool elsewhere = !row.failing_conductor.empty() && !is_in(row.failing_conductor, row.worst_component);
   return joined_words(
       {first,
        fmt::format("{} {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",

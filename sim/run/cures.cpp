@@ -645,7 +645,8 @@ std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& r
   const pipeline::Routing& routing = setup.dresspacks[static_cast<std::size_t>(refusal.dresspack)].routing;
   if (pipeline::clamps_exchanged(routing, setup.robot))
     return fmt::format(
-        "the links of the clamps may be exchanged: routing.base_clamp.link: {} and routing.tool_clamp.link: {} if so",
+        "exchange base_clamp and tool_clamp; or, if only their links are exchanged, routing.base_clamp.link: {} and "
+        "routing.tool_clamp.link: {}",
         routing.tool_clamp->link, routing.base_clamp->link);
   if (const auto* robot = dynamic_cast<const RobotPath*>(path.get()); robot && robot->clamps_in_world())
     return "give the places of the clamps in the frames of their links (dresslife check computes them)";

@@ -164,3 +164,15 @@ TEST_CASE(
   CHECK(fine > 0);
   CHECK(pull("5") == Approx(fine).epsilon(0.05));
 }
+
+TEST_CASE("friction that gathers over more than the closed forms contain is warned of, and the remedy is enough") {
+  Scratch scratch;
+  const std::string job = std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/bending_cable.yaml";
+  must_run(scratch, "dresslife-sim", "'" + job + "' --quiet -o motion.h5");
+  const auto warnings = [&](const std::string& settings) {
+    must_run(scratch, "dresslife-strain", "motion.h5 --quiet -o strain.h5 --force " + settings);
+    return pipeline::FileReader(scratch / "strain.h5", pipeline::strain_format()).text_attribute("warnings");
+  };
+  CHECK_THAT(warnings(""), Catch::Contains("evens out over") && Catch::Contains("strain.friction_factor: 2.5"));
+  CHECK_THAT(warnings("--set strain.friction_factor=2.5"), !Catch::Contains("evens out over"));
+}

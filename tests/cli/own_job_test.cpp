@@ -159,7 +159,7 @@ const Row rows[] = {
                                "link_6"),
                   "1.035", "0.4"),
      Answer::refused, "job.yaml:5:15", "mm too short at ",
-     "the links of the clamps may be exchanged: routing.base_clamp.link: link_3 and routing.tool_clamp.link: link_6 if so"},
+     "if only their links are exchanged, routing.base_clamp.link: link_3 and routing.tool_clamp.link: link_6"},
     {"job.yaml", "link: link_6", "link: link_3", Answer::warned, "job.yaml:6:15",
      "both clamps of dresspack are on link_3", "for example link_6"},
     {"job.yaml", clamps_links,

@@ -811,10 +811,23 @@ TEST_CASE("ranking: of one job the first words say what to do, forces that canno
   life.planned_hours = 1300, life.life_response = response_of(4);
   auto rows = read_ranking({job_with(scratch, "one", life)});
   CHECK(ranking_table(rows).starts_with("Plan a replacement after 1,300 h of motion (3.74 months).\n"));
+  rows[0].worst_joint = "joint_5";
+  CHECK(ranking_table(rows).starts_with(
+      "Plan a replacement after 1,300 h of motion (3.74 months). dresslife improve JOB searches for better clamps"));
   rows[0].warnings = std::vector<Warning>{{WarningKind::force, "", "cables pull"}};
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
   rows[0].planned_hours[0] = 55000, rows[0].robot_life_hours = 40000;
   CHECK(ranking_table(rows).starts_with("Do not plan with this result: forces (see the warnings).\n"));
+}
+
+TEST_CASE("ranking: the worst wire is in the likeliest conductor, also if only the wire's path counts the cable") {
+  const Scratch scratch;
+  RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
+  row.failing_mode = "wires", row.failing_conductor = "cable/layer 1/core 6";
+  row.worst_component = "cable 1/layer 1/core 6/layer 1/wire 13";
+  CHECK_THAT(failure_words(row), Catch::Contains("The worst wire is cable 1"));
+  row.worst_component = "cable 1/layer 1/core 7/layer 1/wire 13";
+  CHECK_THAT(failure_words(row), Catch::Contains("another wire is the worst"));
 }
 
 TEST_CASE("ranking: a life that equals one of its bounds is named, another one is not") {
