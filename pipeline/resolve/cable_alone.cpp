@@ -150,10 +150,12 @@ Node cable_alone(const Node& cable) {
   holder.where = cable.where;
   expand_data_sheets(holder);
   Node alone = around(holder.find("components")->items.front());
-  copy(cable, "source", alone);
+  for (const char* key : {"source", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N"}) {
+    copy(cable, key, alone);  // keys of the dresspack, that is, of the cable as a whole
+    for (Node& component : alone["components"].items)
+      std::erase_if(component.entries, [&](const Entry& entry) { return entry.key == key; });
+  }
   copy(holder, "estimates", alone);
-  for (Node& component : alone["components"].items)
-    std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "source"; });
   return alone;
 }
 

@@ -142,6 +142,10 @@ TEST_CASE("job: a cable alone on a robot has its mass, stiffness and damping by 
   CHECK(lead.axial_stiffness > 0);
   CHECK_THAT(lead.estimates, Catch::Contains("damping_time_ms 20"));
   CHECK(job_text(job_of_text(job_text(job))) == job_text(job));
+  // The limits of the cable as a whole may stand beside its data sheet.
+  std::string limited = text;
+  limited.insert(limited.find("data_sheet"), "least_bend_radius_mm: 65, ");
+  CHECK(job_of_text(limited).dresspacks.front().dresspack.least_bend_radius == 0.065);
 }
 
 TEST_CASE("job: a box on a link has sides in metres") {
