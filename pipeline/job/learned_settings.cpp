@@ -162,7 +162,7 @@ std::string different(const std::string& of, const std::string& beside) {
   return left.empty() ? "none" : listed(left);
 }
 
-void check_settings(const Calibration& calibration, const LearnedUnder& own, Problems& problems) {
+void compare_settings(const Calibration& calibration, const LearnedUnder& own, std::vector<OtherSetting>& others) {
   for (const LearnedSetting& setting : own.settings) {
     const bool slip = setting.key == slip_key;
     const auto words = [slip](const std::string& value) { return slip ? slip_words(value) : value; };
@@ -174,16 +174,15 @@ void check_settings(const Calibration& calibration, const LearnedUnder& own, Pro
       agree |= slip ? slips_agree(other.value, setting.value) : other.value == setting.value;
     }
     if (agree || learned.empty()) continue;  // `learned` is empty for a key that is newer than the calibration
-    problems.add(calibration.where,
-                 fmt::format("{}{}: {} (this job has {})", learned_with, setting.key, listed(learned, " or "),
-                             words(setting.value)),
-                 fmt::format("set {} as the tests had it, calibrate again with --set '{}={}', or leave out the key "
-                             "calibration",
-                             setting.key, setting.key, words(setting.value)));
+    others.push_back(
+        {fmt::format("{}: {} (this job has {})", setting.key, listed(learned, " or "), words(setting.value)),
+         fmt::format("set {} as the tests had it, calibrate again with --set '{}={}', or leave out the key "
+                     "calibration",
+                     setting.key, setting.key, words(setting.value))});
   }
 }
 
-void check_friction(const Calibration& calibration, const LearnedUnder& own, Problems& problems) {
+void compare_friction(const Calibration& calibration, const LearnedUnder& own, std::vector<OtherSetting>& others) {
   for (const LearnedCable& cable : own.cables) {
     const LearnedCable* same = nullptr;
     bool agree = false;
@@ -193,24 +192,22 @@ void check_friction(const Calibration& calibration, const LearnedUnder& own, Pro
       agree |= other.friction == cable.friction;
     }
     if (same && !agree)
-      problems.add(
-          calibration.where,
-          fmt::format("{}{} in '{}' (this job has {})", learned_with, different(same->friction, cable.friction),
-                      same->name, different(cable.friction, same->friction)),
-          "give the cable the friction keys that it had in the tests, calibrate again with those of the job, or "
-          "leave out the key calibration");
+      others.push_back(
+          {fmt::format("{} in '{}' (this job has {})", different(same->friction, cable.friction), same->name,
+                       different(cable.friction, same->friction)),
+           "give the cable the friction keys that it had in the tests, calibrate again with those of the job, or "
+           "leave out the key calibration"});
   }
 }
 
-void check_constants(const Calibration& calibration, const LearnedUnder& own, Problems& problems) {
+void compare_constants(const Calibration& calibration, const LearnedUnder& own, std::vector<OtherSetting>& others) {
   for (const LearnedMaterial& material : own.materials)
     for (const LearnedMaterial& other : calibration.under.materials)
       if (other.name == material.name && other.constants != material.constants)
-        problems.add(calibration.where,
-                     fmt::format("{}{} of material '{}' (this job has {})", learned_with,
-                                 different(other.constants, material.constants), material.name,
-                                 different(material.constants, other.constants)),
-                     "use the material of the tests, calibrate again with this one, or leave out the key calibration");
+        others.push_back(
+            {fmt::format("{} of material '{}' (this job has {})", different(other.constants, material.constants),
+                         material.name, different(material.constants, other.constants)),
+             "use the material of the tests, calibrate again with this one, or leave out the key calibration"});
 }
 
 /// Returns the names of the items that no test had.
@@ -230,16 +227,23 @@ LearnedUnder learned_under(const std::vector<const Job*>& jobs) {
   return under;
 }
 
+std::vector<OtherSetting> other_settings(const Job& job) {
+  const LearnedUnder own = learned_under({&job});
+  std::vector<OtherSetting> others;
+  compare_settings(*job.calibration, own, others);
+  compare_friction(*job.calibration, own, others);
+  compare_constants(*job.calibration, own, others);
+  return others;
+}
+
 void check_learned_settings(const Job& job) {
   const Calibration& calibration = *job.calibration;
   if (calibration.under.settings.empty())
     throw InputError(calibration.where, "does not say under which settings it was learned (strain.slip and others)",
                      "run dresslife calibrate again with the same observations");
-  const LearnedUnder own = learned_under({&job});
   Problems problems;
-  check_settings(calibration, own, problems);
-  check_friction(calibration, own, problems);
-  check_constants(calibration, own, problems);
+  for (const OtherSetting& other : other_settings(job))
+    problems.add(calibration.where, "was learned with " + other.what, other.remedy);
   problems.finish();
 }
 

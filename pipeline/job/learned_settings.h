@@ -13,11 +13,17 @@ namespace dresslife::pipeline {
 /// Returns the different settings, cables and materials of these jobs, for a calibration.
 LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 
-/// The beginning of the problems of check_learned_settings().
-constexpr std::string_view learned_with = "was learned with ";
+/// A setting, friction key or constant of a job that is not that of its calibration.
+struct OtherSetting {
+  std::string what;    ///< "strain.slip: friction (this job has free)"
+  std::string remedy;  ///< for a job that names the calibration
+};
 
-/// Checks that a job's settings are those of its calibration. Errors: InputErrors at the calibration, one for each different
-/// setting, friction key of a cable and constant of a material, and one for a calibration without settings.
+/// Returns the differences between a job and the tests of its calibration.
+std::vector<OtherSetting> other_settings(const Job& job);
+
+/// Checks that a job's settings are those of its calibration. Errors: InputErrors at the calibration, one for each of
+/// other_settings(), and one for a calibration without settings.
 void check_learned_settings(const Job& job);
 
 /// Returns LearnedFrom::observed for dresspacks in service: "3 of 12 failed".

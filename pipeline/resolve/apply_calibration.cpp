@@ -84,29 +84,11 @@ void put_medians(Node& tree, Job& job) {
   read_keys(tree, job);
 }
 
-/// Returns "strain.slip: friction (this job has free)" of a problem of check_learned_settings().
-std::string setting_in(const std::string& problem) {
-  const std::size_t begin = problem.find(learned_with);
-  return begin == std::string::npos
-             ? problem
-             : problem.substr(begin + learned_with.size(), problem.find("; ", begin) - begin - learned_with.size());
-}
-
 /// Removes the ratings from a job. setting: that excludes them; empty: none does.
 void remove_ratings(Job& job, const std::string& setting = "") {
   job.calibration.reset();
   job.uncertainty.ratings = KnownRatings::none;
   job.uncertainty.ratings_left_out = setting;
-}
-
-/// Returns the setting of the job with which the calibration is not valid; empty: it is valid.
-std::string excluding_setting(const Job& job) {
-  try {
-    check_learned_settings(job);
-  } catch (const InputErrors& other_settings) {
-    return setting_in(other_settings.problems().front().line);
-  }
-  return "";
 }
 
 /// Returns the names of the learned parameters that a resolved job states itself, since the ratings were applied.
@@ -136,8 +118,8 @@ void update_calibration(Node& tree, Job& job) {
     leave_out_foreign_parameters(job);
     std::string& words = calibration.within.left_out;
     words = earlier + (earlier.empty() || words.empty() ? "" : "; ") + words;
-  } else if (const std::string setting = excluding_setting(job); !setting.empty()) {
-    remove_ratings(job, setting);
+  } else if (const std::vector<OtherSetting> others = other_settings(job); !others.empty()) {
+    remove_ratings(job, others.front().what);
   } else {
     leave_out_foreign_parameters(job);
     leave_out(calibration, stated_since(tree, job));
@@ -188,7 +170,8 @@ void apply_ratings(Node& tree, Job& job) {
   Calibration& calibration = job.calibration.emplace();
   read_fields(written, calibration);
   check_calibration(calibration);
-  if (const std::string setting = excluding_setting(job); !setting.empty()) return remove_ratings(job, setting);
+  if (const std::vector<OtherSetting> others = other_settings(job); !others.empty())
+    return remove_ratings(job, others.front().what);
   leave_out_foreign_parameters(job);
   leave_out(calibration, stated_by(tree, job));
   if (calibration.parameters.empty()) return remove_ratings(job);
