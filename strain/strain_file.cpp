@@ -437,7 +437,7 @@ bool has_estimated_lay(const pipeline::Dresspack& dresspack, const std::string& 
 /// Returns warnings of layers whose strain evens out over too great a length for the closed forms of friction (strain/slip.h).
 std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations,
                                       const pipeline::Job& job) {
-  constexpr double most_held = 2.5;  // times the computed strain
+  constexpr double most_held = 2.5;  // times the cap, measured with lines that slide (strain/slip.h)
   std::vector<Warning> all;
   if (job.strain.factors.friction >= most_held) return all;
   for (const auto& evaluation : evaluations) {
