@@ -15,14 +15,16 @@
 
 namespace dresslife::fatigue {
 
-/// Results for one mode, until the end of the robot's life.
+/// Results for one mode, until the dresspack is replaced.
 struct Inspected {
   double failed_share = 0;  ///< share of all samples
   double found_share = 0;   ///< share of the failing samples that a check finds before they fail; NaN: none fails
   double unseen_share = 0;  ///< share of all samples that fail without being found
 };
-/// lives: (sample) log10 repeats; repeat: duration of one [s]; visible_from: v. Precondition: the interval is not 0.
-Inspected inspected(const std::vector<double>& lives, double repeat, double visible_from,
-                    const pipeline::Inspection& inspection, const pipeline::Fatigue& fatigue);
+/// A dresspack is replaced when 1 of 10 has failed by the wires, earlier when its own wires fail, and with its robot at the latest.
+/// lives: (sample) log10 repeats; wires: the same by the validated modes; repeat: duration of one [s]; visible_from: v.
+/// Precondition: the interval is not 0.
+Inspected inspected(const std::vector<double>& lives, const std::vector<double>& wires, double repeat,
+                    double visible_from, const pipeline::Inspection& inspection, const pipeline::Fatigue& fatigue);
 
 }  // namespace dresslife::fatigue

@@ -235,15 +235,16 @@ double visible_from(const WornMaterial& material, const Abrasion& worn, const pi
          layer.area(layer.thickness, worn.arc);
 }
 
-void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, double repeat, const pipeline::Job& job) {
-  const Inspected result = inspected(own, repeat, mode.visible_from, job.inspection, job.fatigue);
+void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, const std::vector<double>& lives,
+                    double repeat, const pipeline::Job& job) {
+  const Inspected result = inspected(own, lives, repeat, mode.visible_from, job.inspection, job.fatigue);
   mode.found_share = result.found_share, mode.unseen_share = result.unseen_share;
   constexpr double said = 0.01;  // smallest reported share of failures
   constexpr double least = 0.1;  // [%] smaller shares are reported as "less than"
   if (result.failed_share < said) return;
   const double found = 100 * result.found_share, unseen = 100 * result.unseen_share;
   mode.note = fmt::format(
-      "By the model {:.0f} % of the dresspacks wear through within the robot's life. A visual check every {:g} weeks finds {} % of "
+      "By the model {:.0f} % of the dresspacks wear through before they are replaced. A visual check every {:g} weeks finds {} % of "
       "these before; {} % of all wear through unseen. No check sees broken wires.",
       100 * result.failed_share, job.inspection.interval_weeks,
       found > 100 - least ? fmt::format("more than {:g}", 100 - least) : pipeline::readable(found),
@@ -291,7 +292,7 @@ void find_abrasion(Search& found) {
     mode.time = worn.time;
     std::vector<double> own = found.put_wear(mode, d, worn);
     mode.visible_from = visible_from(*material, worn, job.inspection);
-    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, found.repeat(), job);
+    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, found.lives, found.repeat(), job);
     found.put_lives(mode, std::move(own));
   }
 }

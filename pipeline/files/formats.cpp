@@ -525,7 +525,7 @@ Format make_life_format() {
      "between mode, dresspack among several, hours until it has failed in 10, 50, 90 % of cases (nan: not known), share of "
      "samples in which it fails before the wires, life_hours_p10 if it counted, segment from the tool, distance from the "
      "tool m, what rubs, place around the hose, rated or coiled cable, time s, program line, of the wall by its law the bends "
-     "from straight to the limit of the bend radius, further sentences, share of the failures within the robot's life that visual checks find before (nan: not known), share of "
+     "from straight to the limit of the bend radius, further sentences, share of the failures before the replacement that visual checks find in time (nan: not known), share of "
      "all that fail unseen, share of the life after which a check can see it (nan: never), of a kink the radius of the tightest bend over that at which the tube kinks (0: another mode); a maker's rating is a lower bound of a life"},
     {"not_evaluated", text, maybe, "parts of the dresspacks and failure modes without a life"},
     {"conductor_life_hours_p10", f64, maybe,

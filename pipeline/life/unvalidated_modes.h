@@ -34,9 +34,9 @@ struct UnvalidatedMode {
   std::string note;           ///< further sentences; empty: none
 
   double found_share =
-      unknown;  ///< share of failures in the robot's life that visual checks find before; unknown: none fails
+      unknown;  ///< share of the failures before the replacement that visual checks find in time; unknown: none fails
   double unseen_share =
-      unknown;  ///< share of all dresspacks that fail within the robot's life without a check finding it
+      unknown;  ///< share of all dresspacks that fail before their replacement without a check finding it
   double visible_from = unknown;  ///< share of its life after which a visual check can find it; unknown: never
   double margin = 0;              ///< for a kink: tightest bend radius / kink radius of the tube; 0: another mode
   /// Returns the hours until 10 % have failed by this mode; in old files, the median for the wall.

@@ -61,7 +61,7 @@ ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
   line.from_tool = fmt::format("{:.2f}", mode.position_from_tool);
   if (mode.mode != UnvalidatedMode::wall) line.time = fmt::format("{:.1f}", mode.time);
   line.step = mode.step;
-  line.early = is_credible(mode) && mode.early_hours() < row.robot_life_hours;
+  line.early = is_credible(mode) && mode.early_hours() < replacement_hours(row);
   return line;
 }
 

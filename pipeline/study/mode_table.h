@@ -45,7 +45,7 @@ struct ModeLine {
   std::string time;       ///< "23.1": time of its largest load [s]; empty: not known
   std::string step;       ///< program line that runs at `time`; empty: none
   std::string note;       ///< further sentences; empty: none
-  bool early = false;     ///< whether 1 of 10 fails by this mode within the robot's life
+  bool early = false;     ///< whether 1 of 10 fails by this mode before replacement_hours()
 };
 
 /// Returns one line per mode, the wires first. Empty: the row has no percentiles and no other mode.

@@ -167,10 +167,10 @@ class Table {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
     add(of_mode(
         "abrasion_found_share", "1",
-        "share of the dresspacks worn through within the robot's life that a visual check finds before; not validated",
+        "share of the dresspacks worn through before their replacement that a visual check finds in time; not validated",
         abrasion, &UnvalidatedMode::found_share));
     add(of_mode("abrasion_unseen_share", "1",
-                "share of all dresspacks that wear through within the robot's life, unseen by checks", abrasion,
+                "share of all dresspacks that wear through before their replacement, unseen by checks", abrasion,
                 &UnvalidatedMode::unseen_share));
   }
 

@@ -24,9 +24,6 @@ bool outlives_robot(const RankingRow& row, double hours) {
 
 bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && row.damage_per_repeat > 0; }
 
-/// Returns the hours from which an unvalidated mode is of no interest: those of the headline, at most the robot's life.
-double hours_of_interest(const RankingRow& row) { return std::fmin(row.headline_hours(), row.robot_life_hours); }
-
 /// Returns "strength x 1.33": the change of the job by makers' ratings; empty: none.
 std::string ratings_of(const RankingRow& row) {
   constexpr std::string_view before = "uncertainty.ratings typical (";
@@ -98,10 +95,10 @@ std::string wall_life(const UnvalidatedMode& mode) {
   return fmt::format("{} (10 .. 90 %, not validated)", range_text(mode.hours[0], mode.hours[2]));
 }
 
-/// Returns the modes after earlier_unvalidated() that also come before the headline and within the robot's life, the
+/// Returns the modes after earlier_unvalidated() that also come before replacement_hours(), the
 /// earliest first: ", abrasion: from 25,000 h". Empty: none.
 std::string further_unvalidated(const RankingRow& row) {
-  const double end = hours_of_interest(row);
+  const double end = replacement_hours(row);
   std::map<std::string, double> hours;  // of several parts the earliest hours
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < end && is_credible(mode))
@@ -174,9 +171,11 @@ bool is_in(const std::string& conductor, std::string wire) {
 
 }  // namespace
 
+double replacement_hours(const RankingRow& row) { return std::fmin(row.headline_hours(), row.robot_life_hours); }
+
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
   const UnvalidatedMode* first = nullptr;
-  double before = hours_of_interest(row);
+  double before = replacement_hours(row);
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < before && is_credible(mode)) before = mode.early_hours(), first = &mode;
   return first;

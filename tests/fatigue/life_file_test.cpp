@@ -1149,10 +1149,14 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
   CHECK(unseen[0].hours == modes[0].hours);
   CHECK(unseen[0].found_share == 0);
-  const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
-  CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
-  CHECK_THAT(modes[0].note, Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks",
-                                                          100 * pipeline::normal_share(worn))));
+  // The dresspack is replaced when 1 of 10 has failed by the wires. These wires fail before that, some of them after the wear.
+  const double replaced = life.number_attribute("life_hours_p10");
+  REQUIRE(replaced < job.fatigue.robot_life_hours);
+  const double worn = pipeline::normal_share(std::log10(replaced / hours(repeats, duration)) / spread);
+  CHECK(unseen[0].unseen_share < worn + strata);
+  CHECK(unseen[0].unseen_share > 0.9 * worn - strata);
+  CHECK_THAT(modes[0].note,
+             Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks", 100 * unseen[0].unseen_share)));
   job.inspection.interval_weeks = 0;
   const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
   CHECK(std::isnan(unchecked[0].unseen_share));

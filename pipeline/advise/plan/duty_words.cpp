@@ -23,10 +23,16 @@ std::string indented_lines(const std::string& text) { return wrapped(text, scree
 /// Returns the remaining life of the robot, which also ran during the history.
 double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
 
-/// Returns the possible failure by the first unvalidated mode before these hours, with the action.
-std::string inspection(const DutyResult& duty, double hours) {
+/// Returns the age at which the dresspack is replaced, at most the robot's. Hours that are not to be planned with replace nothing.
+double replacement_age(const DutyResult& duty) {
+  const double p10 = duty.past_hours > 0 ? duty.past_hours + duty.lives.remaining[0] : duty.lives.percentiles[0];
+  return duty.doubtful.empty() ? std::min(p10, duty.robot_life_hours) : duty.robot_life_hours;
+}
+
+/// Returns the possible failure by the first unvalidated mode before the replacement, with the action.
+std::string inspection(const DutyResult& duty) {
   const auto first = std::ranges::min_element(duty.others, {}, &DutyMode::hours);
-  if (first == duty.others.end() || !(first->hours < hours)) return "";
+  if (first == duty.others.end() || !(first->hours < replacement_age(duty))) return "";
   // The hours of these modes count from a new dresspack, those of the wires from now.
   const std::string after =
       hours_text(first->hours) +
@@ -73,17 +79,16 @@ std::string duty_action(const DutyResult& duty) {
   const std::string when = remains ? fmt::format("in {} of operation from now on", hours_text(hours))
                                    : "after " + hours_text(hours) + " of operation";
   if (duty.doubtful.empty() && std::isinf(hours))
-    return "No replacement is foreseen: in more than 90 % of the samples no mode fails.";
+    return "No replacement is foreseen: in more than 90 % of the samples no wire fails." + inspection(duty);
   if (!duty.doubtful.empty())
     return fmt::format("Do not plan with {}: {} (see the warnings).",
                        hours > robot_life_left(duty) ? "this result" : hours_text(hours),
                        fmt::join(duty.doubtful, ", "));
   if (hours > robot_life_left(duty))
     return fmt::format("The wires last longer than the robot ({}).{}", hours_text(duty.robot_life_hours),
-                       inspection(duty, duty.robot_life_hours));
+                       inspection(duty));
   return fmt::format("Plan a replacement {} ({} at {:g} h per week).{}", when,
-                     calendar_text(months(hours, duty.hours_per_week)), duty.hours_per_week,
-                     inspection(duty, duty.past_hours + hours));
+                     calendar_text(months(hours, duty.hours_per_week)), duty.hours_per_week, inspection(duty));
 }
 
 std::string percentile_words(const DutyResult& duty) {
@@ -111,7 +116,7 @@ std::string caution_words(const DutyResult& duty) {
   std::string text;
   std::vector<std::string> soon;
   for (const DutyMode& mode : duty.others)
-    if (mode.hours < duty.robot_life_hours) soon.push_back(other_words(mode));
+    if (mode.hours < replacement_age(duty)) soon.push_back(other_words(mode));
   if (!soon.empty())
     text += indented_lines(fmt::format("Not validated and not in these hours, at the soonest{}: {}.",
                                        duty.past_hours > 0 ? " (from new, by these programs only)" : "",

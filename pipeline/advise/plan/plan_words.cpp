@@ -15,6 +15,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/screen.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/life/planning.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -259,7 +260,8 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     const std::optional<std::size_t> window = plan.rows[i].window;
     const Day last = window ? plan.windows[*window].first : plan.end;
     const double weeks = static_cast<double>((last - plan.today).count()) / 7,
-                 until = weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
+                 per_week = row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second),
+                 until = weeks * per_week;
     for (const AgeLimit& limit : known->second) {
       const double age = worn_hours(row, plan.rows[i].age_hours, [&](const std::string& duty) {
         const auto of_duty = limits.find(duty);
@@ -268,6 +270,8 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
         return same ? same->hours : std::numeric_limits<double>::infinity();
       });
       if (!(limit.hours <= age + until)) continue;
+      // Most dresspacks whose wires fail before are replaced then.
+      if (limit.hours > age && wires_live(plan.rows[i], limit.hours - age, per_week) < usual_reach) continue;
       Reached& reached = by_mode[limit.mode];
       (limit.hours <= age ? reached.today : reached.later).push_back(row.name);
     }

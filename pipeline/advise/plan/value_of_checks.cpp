@@ -15,14 +15,6 @@ constexpr double fewest_plants = 1e-3;
 
 double log10_spread(const AbrasionLife& life) { return std::log10(life.median / life.early) / -normal_quantile(0.1); }
 
-/// Returns the share of the dresspacks whose wires live `hours` from today.
-double wires_live(const RowPlan& row, double hours, double hours_per_week) {
-  double lives = 1;
-  const auto weeks = static_cast<std::size_t>(hours / hours_per_week);
-  for (std::size_t week = 0; week < std::min(weeks, row.fails_in_week.size()); ++week) lives -= row.fails_in_week[week];
-  return std::max(lives, 0.0);
-}
-
 /// Failures by abrasion of one dresspack and its successors for the life T at one z, without failures of wires. planned: hours
 /// until the planned replacement; end: hours until the end of the plan.
 struct Failures {
@@ -45,6 +37,13 @@ Failures failures_of(double life, double age, std::optional<double> planned, dou
 }
 
 }  // namespace
+
+double wires_live(const RowPlan& row, double hours, double hours_per_week) {
+  double lives = 1;
+  const auto weeks = static_cast<std::size_t>(hours / hours_per_week);
+  for (std::size_t week = 0; week < std::min(weeks, row.fails_in_week.size()); ++week) lives -= row.fails_in_week[week];
+  return std::max(lives, 0.0);
+}
 
 std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
                                                         const std::map<std::string, LifeTable>& tables,

@@ -40,6 +40,9 @@ struct CheckValue {
   double found = 0;    ///< number of these failures that checks find before they occur
 };
 
+/// Returns the share of the dresspacks whose wires live `hours` from today.
+double wires_live(const RowPlan& row, double hours, double hours_per_week);
+
 /// Returns the values, (row of the fleet). lives: by duties, also earlier ones; without an entry: nothing rubs. plan: plan of
 /// this fleet. Absent: in fewer than 1 in 1,000 plants with this abrasion all dresspacks live today.
 std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,

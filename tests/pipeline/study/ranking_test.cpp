@@ -392,6 +392,11 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK_THAT(ranking_table({rows[0]}),
              Catch::Contains("abrasion: A check finds it.") && !Catch::Contains("Plan with this number"));
   CHECK(mode_lines(rows[1])[1].mode == "abrasion†: nothing rubs");
+  // A dresspack that is replaced before is not inspected.
+  RankingRow weak = rows[0];
+  weak.planned_hours[0] = 299;
+  CHECK_THAT(ranking_table({weak}), !Catch::Contains("A check finds it."));
+  CHECK(plan_mark(weak).empty());
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), name) - table[0].begin());

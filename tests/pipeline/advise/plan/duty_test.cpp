@@ -83,7 +83,7 @@ TEST_CASE("wear and used ratings of a duty's programs add up by their shares of 
   CHECK(std::isinf(other_modes(parts, rows)[1].hours));
 }
 
-TEST_CASE("a duty names the mode beside the wires that comes first, and all that come within the robot's life") {
+TEST_CASE("a duty names the mode beside the wires that comes first, and all that come before the replacement") {
   DutyResult duty;
   duty.robot_life_hours = 40000, duty.hours_per_week = 80;
   duty.lives.percentiles = {9000, 20000, 30000};
@@ -99,10 +99,18 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
           " The maker's rating of power cable covers only 6,000 h (not validated): test or replace it by then."));
   const std::string caution = caution_words(duty);
   for (const char* words :
-       {"1 of 10 hoses is worn through after 20,000 h", "the maker's rating of power cable covers 6,000 h",
-        "1 of 10 hoses of upper has cracked after 7,000 h"})
+       {"the maker's rating of power cable covers 6,000 h", "1 of 10 hoses of upper has cracked after 7,000 h"})
     CHECK_THAT(in_one_line(caution), Catch::Contains(words));
   CHECK_THAT(caution, !Catch::Contains("bus cable"));
+  const std::string worn = "1 of 10 hoses is worn through after 20,000 h";
+  CHECK_THAT(in_one_line(caution), !Catch::Contains(worn));  // it is replaced at 9,000 h
+  DutyResult doubtful = duty;
+  doubtful.doubtful = {"a"};
+  CHECK_THAT(in_one_line(caution_words(doubtful)), Catch::Contains(worn));  // 9,000 h are not to be planned with
+  DutyResult endless = duty;
+  endless.lives.percentiles.fill(std::numeric_limits<double>::infinity());
+  CHECK_THAT(duty_action(endless),
+             Catch::StartsWith("No replacement is foreseen") && Catch::EndsWith("test or replace it by then."));
   duty.others[1].hours = 8000;
   CHECK_THAT(duty_action(duty),
              Catch::EndsWith(" The hose of upper may crack after 7,000 h (not validated): inspect it."));
