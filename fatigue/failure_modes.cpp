@@ -10,11 +10,6 @@ namespace {
 
 using pipeline::LifeResponse;
 
-// Most decades from the first wire's life to the conductor's. In a bend the wires within 18 deg of the worst have 0.95 of its
-// strain and twice its life; they are the tenth whose loss is the failure. A larger distance, up to no damage, occurs only at the
-// medians of the parameters, where hardly any wire is damaged. W(z) is known for the worst wire only, and is added to the
-// distance.
-constexpr double most_after_first_wire = 1;
 constexpr std::size_t likely_anywhere =
     32;  // number of worst wires of a mode, in addition to the worst wire of each segment
 
@@ -193,6 +188,15 @@ pipeline::ParameterKnowledge knowledge_of_job(const pipeline::Job& job) {
           known.mean(static_cast<Eigen::Index>(p)) -= learned.median;
   if (!job.uncertainty.enabled) known.mean.setZero(), known.covariance.setZero();
   return known;
+}
+
+Percentiles near_first_wire(Percentiles lives, double first_wire) {
+  if (!std::isfinite(first_wire)) return lives;
+  const auto logs = logs_of(lives);
+  const double excess = std::max(0.0, logs[1] - (std::log10(first_wire) + most_after_first_wire));
+  if (excess > 0)
+    for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::pow(10, logs[i] - excess);
+  return lives;
 }
 
 pipeline::FailureModes failure_modes(const ModeList& modes, const ModeInputs& inputs) {

@@ -839,8 +839,10 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_segments(c);
   write_dresspacks(c);
   write_layers(c);
-  const LifeScatter lives = scatter.get();
+  LifeScatter lives = scatter.get();
   const pipeline::FirstFailures first = first_failures_of(c, modes, conductors, places, lives, glued, free);
+  lives.first_place.lives = near_first_wire(lives.first_place.lives,
+                                            c.worst == no_site ? infinity : life_in_repeats(c.damage.damage[c.worst]));
   const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
   write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
   const auto most = std::ranges::max_element(first.first);

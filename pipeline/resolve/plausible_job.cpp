@@ -1178,7 +1178,8 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                         : 10));
   if (fatigue.failed_wires_percent > most_failed_wires)
     add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, fmt::format("{:g} or less", most_failed_wires),
-        "a conductor that works with few wires, whose current and load the lives do not contain",
+        "a conductor that works with few wires, whose current and load the lives do not contain. Its median life is at most ten "
+        "times that of the worst wire",
         "fatigue.failed_wires_percent: 10");
   for (const auto& [key, value] : {std::pair{"inspection.found_percent", job.inspection.found_percent},
                                    {"inspection.visible_depth_percent", job.inspection.visible_depth_percent}})

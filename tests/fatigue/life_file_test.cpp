@@ -11,6 +11,7 @@
 #include <numeric>
 #include <random>
 
+#include "fatigue/failure_modes.h"
 #include "fatigue/scatter.h"
 #include "fatigue/verdict.h"
 #include "pipeline/base/statistics.h"
@@ -1039,7 +1040,12 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   CHECK(near < 0.9);
   const auto [far, far_by_scatter] = ahead(0.002f);
   CHECK(far == Approx(1).margin(digits));
-  CHECK(far_by_scatter > 2);
+  CHECK(far_by_scatter == Approx(1).margin(digits));  // the same limit: no answer has two lives
+  for (const double half : {1e3, 1e6, infinity}) {
+    const Percentiles lives = near_first_wire({500, half, infinity}, 200);
+    CHECK(lives[1] == Approx(std::min(half, 2000.0)));
+    CHECK(lives[0] == Approx(500 * lives[1] / std::min(half, 1e25)));
+  }
 
   // Without uncertain parameters the bounds change by the same decade.
   job.uncertainty.enabled = false;
