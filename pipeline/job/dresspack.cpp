@@ -119,6 +119,8 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.text("source", dresspack.source, Need::required, "The source of the numbers.");
   f.text("estimates", dresspack.estimates, Need::written,
          "The keys that were left out and their estimated values. dresslife writes it into resolved jobs.");
+  f.maybe_number("estimated_lay_factor", dresspack.estimated_lay_factor, between(least_lay_factor, most_lay_factor),
+                 "The factor of the lay lengths that data sheets leave out, to see what they change. Default: 1.");
   f.boolean("cable_alone", dresspack.cable_alone, Need::written,
             "Whether it is a cable by itself. The form `cable:` sets it. Stiffness, mass and damping may then be "
             "left out where a rig or a deformation moves it.");

@@ -102,9 +102,12 @@ struct BendingFriction {
   double slides_at = 0;  ///< change of curvature at which it begins to slide [1/m]
 };
 
+constexpr double least_lay_factor = 0.5, most_lay_factor = 2;  ///< range of estimated_lay_factor
+
 struct Dresspack {
   std::string name, source;
   std::string estimates;  ///< keys that the user omitted, with their estimated values (estimates.h); empty: none
+  std::optional<double> estimated_lay_factor;  ///< of lay lengths that data sheets leave out; absent: 1
   bool cable_alone =
       false;            ///< the dresspack is a single cable (cable_alone.h); its stiffness and mass may be unknown (0)
   double diameter = 0;  ///< outer, of the hose [m]

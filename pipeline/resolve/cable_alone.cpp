@@ -148,9 +148,11 @@ Node cable_alone(const Node& cable) {
   Node holder;
   holder["components"] = list_of({cable});
   holder.where = cable.where;
+  copy(cable, "estimated_lay_factor", holder);
   expand_data_sheets(holder);
   Node alone = around(holder.find("components")->items.front());
-  for (const char* key : {"source", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N"}) {
+  for (const char* key :
+       {"source", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N", "estimated_lay_factor"}) {
     copy(cable, key, alone);  // keys of the dresspack, that is, of the cable as a whole
     for (Node& component : alone["components"].items)
       std::erase_if(component.entries, [&](const Entry& entry) { return entry.key == key; });

@@ -139,10 +139,13 @@ bool is_program_file(const fs::path& file) {
 
 void resolve(Node& entry, const std::string& folder, const Where& job, int depth = 0);
 
+constexpr const char* lay_factor = "estimated_lay_factor";
+
 /// Reads `cable: ...` of a dresspack (cable_alone.h). The other keys of the entry replace those of the result.
 void read_cable(Node& entry, const Where& job, int depth) {
   const Node cable = *entry.find("cable");
   const Node* from = cable.is_scalar() ? &cable : cable.find("from");
+  const Node* const factor = entry.find(lay_factor);
   Node alone;
   if (from) {
     const Node* part = cable.find("part");
@@ -152,9 +155,12 @@ void read_cable(Node& entry, const Where& job, int depth) {
                          "give from and part, or the cable itself without from");
     Node dresspack = catalogue_entry("dresspacks", from->text, from->where, job);
     resolve(dresspack, "dresspacks", job, depth + 1);
+    if (factor) dresspack[lay_factor] = *factor;
     alone = cable_alone(dresspack, part ? part->text : std::string(), part ? part->where : cable.where);
   } else if (cable.is_map()) {
-    alone = cable_alone(cable);
+    Node with_factor = cable;
+    if (factor) with_factor[lay_factor] = *factor;
+    alone = cable_alone(with_factor);
   } else {
     throw InputError(cable.where, "dresspack.cable is neither a name nor a map",
                      "name a dresspack, or give name, radius_mm and components of the cable");
@@ -418,8 +424,9 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::size_t here = begin;
     const std::string word = next_word(path, begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
-    // A catalogue entry is resolved as soon as a path leads into it.
-    if (here > 0 && word != "from" && word != "cable")
+    // A catalogue entry is resolved as soon as a path leads into it. A cable's data sheets are expanded then, with their factor.
+    const bool before = word == "from" || word == "cable" || (word == lay_factor && !nodes.front()->is_scalar());
+    if (here > 0 && !before)
       if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*nodes.front(), folder, job.where);
     std::vector<Node*> next;
     for (Node* const node : nodes) step_into(*node, word, where, path, next);

@@ -98,8 +98,11 @@ void widen(CoreRing& ring, double diameter, double lay_length, const Where& wher
 /// Builds the layers of a sheet, from the wire outwards.
 class Expansion {
  public:
-  explicit Expansion(const DataSheet& given)
-      : sheet_(with_class(given)), wire_(wire_of(sheet_)), has_class_(given.conductor_class > 0) {
+  Expansion(const DataSheet& given, double lay_factor)
+      : sheet_(with_class(given)),
+        wire_(wire_of(sheet_)),
+        has_class_(given.conductor_class > 0),
+        lay_factor_(lay_factor) {
     const DataSheet& sheet = sheet_;
     const double section = pi / 4 * wire_ * wire_;
     const double wires = std::round(sheet.cross_section / section);
@@ -268,7 +271,7 @@ class Expansion {
 
   void pack_wires(int count) {
     const double straight = width_of(packed(count, wire_, infinite, Fillers::none, sheet_.where), wire_);
-    wire_lay_ = sheet_.wire_lay_length.value_or(wire_lay_ratio * straight);
+    wire_lay_ = sheet_.wire_lay_length.value_or(lay_factor_ * wire_lay_ratio * straight);
     wire_rings_ = packed(count, wire_, wire_lay_, Fillers::none, sheet_.where);
     conductor_ = width_of(wire_rings_, wire_);
   }
@@ -278,7 +281,8 @@ class Expansion {
     return packed(count, diameter, lay_length.value_or(usual_lay(count, diameter)), Fillers::allowed, sheet_.where);
   }
   double usual_lay(int count, double diameter) const {
-    return core_lay_ratio * width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
+    return lay_factor_ * core_lay_ratio *
+           width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
   }
   std::vector<CoreRing> twisted(double core) const {
     return rings_of(sheet_.cores_per_group, core, sheet_.group_lay_length);
@@ -440,6 +444,7 @@ class Expansion {
   DataSheet sheet_;
   double wire_, outer_ = 0, jacket_ = 0;  // [m]
   bool has_class_;                        // given by the sheet itself
+  double lay_factor_;                     // of lay lengths that the sheet leaves out
   std::vector<CoreRing> wire_rings_;
   double conductor_ = 0, core_diameter_ = 0, wire_lay_ = 0;  // [m]
 };
@@ -457,6 +462,7 @@ void describe(Fields& f, Layers& layers) {
 struct LeftOut {
   std::vector<std::string> by_rules;  ///< for the source of the dresspack
   std::vector<std::string> keys;      ///< for dresspack.estimates
+  double lay_factor = 1;              ///< dresspack.estimated_lay_factor
 };
 
 void expand(Node& component, LeftOut& left_out) {
@@ -469,7 +475,7 @@ void expand(Node& component, LeftOut& left_out) {
   sheet.where = written->where;
   const Node keys = written->is_scalar() ? sheet_from_line(*written) : *written;
   read_fields(keys, sheet);
-  const Expansion expansion(sheet);
+  const Expansion expansion(sheet, left_out.lay_factor);
   const Node* const named = component.find("name");
   const std::string name = named ? named->text : "cable";
   if (const std::string estimates = expansion.estimates(); !estimates.empty())
@@ -875,6 +881,10 @@ void expand_all(Node& dresspack, const std::string& path, Problems& problems, Le
 
 void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
   LeftOut left_out;
+  if (const Node* const factor = dresspack.is_map() ? dresspack.find("estimated_lay_factor") : nullptr)
+    if (const double value = std::strtod(factor->text.c_str(), nullptr);
+        value >= least_lay_factor && value <= most_lay_factor)
+      left_out.lay_factor = value;  // the dresspack's keys refuse others
   expand_all(dresspack, path, problems, left_out);
   Node* source = dresspack.is_map() ? dresspack.find("source") : nullptr;
   if (source && source->is_scalar() && !left_out.by_rules.empty())

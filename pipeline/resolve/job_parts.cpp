@@ -186,6 +186,7 @@ void describe_sim(Fields& echo, Job& copy) {
     dresspack.materials.clear();
     dresspack.hose_material.clear();
     dresspack.hose_strain_factor.reset();
+    dresspack.estimated_lay_factor.reset();
     dresspack.hose_corrugation.reset();
     dresspack.inner_diameter.reset();
     dresspack.core_diameter = 0;

@@ -142,6 +142,18 @@ TEST_CASE("job: a cable alone on a robot has its mass, stiffness and damping by 
   CHECK(lead.axial_stiffness > 0);
   CHECK_THAT(lead.estimates, Catch::Contains("damping_time_ms 20"));
   CHECK(job_text(job_of_text(job_text(job))) == job_text(job));
+  // A factor changes the lays that the sheet leaves out, also of a cable alone.
+  const auto core = [](const Job& of) { return of.dresspacks[0].dresspack.components[0].components[0]; };
+  const auto lay = [&](const Job& of) { return core(of).helix_radius / std::tan(core(of).lay_angle); };
+  const std::string set = "dresspack.estimated_lay_factor=0.67";
+  constexpr double widened = 0.01;  // a shorter lay leaves less room for the cores
+  CHECK(lay(job_of_text(text, {set})) == Approx(0.67 * lay(job)).epsilon(widened));
+  CHECK_THAT(job_of_text(text, {set}).dresspacks[0].dresspack.estimates, Catch::Contains("lay_length_mm"));
+  CHECK_THAT(message_of([&] { job_of_text(text, {"dresspack.estimated_lay_factor=67"}); }),
+             Catch::Contains("estimated_lay_factor is 67 (must be 0.5 .. 2)"));
+  std::string given = text;
+  given.insert(given.find(", outer diameter"), ", lay length 60 mm");
+  CHECK(lay(job_of_text(given, {set})) == Approx(lay(job_of_text(given))));
   // The limits of the cable as a whole may stand beside its data sheet.
   std::string limited = text;
   limited.insert(limited.find("data_sheet"), "least_bend_radius_mm: 65, ");

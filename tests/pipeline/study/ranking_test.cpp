@@ -868,6 +868,12 @@ TEST_CASE("ranking: what the calculation leaves uncertain stands beside the caus
           "the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") &&
           !Catch::Contains("50 % value"));
   CHECK_THAT(uncertainty_words(row), !Catch::Contains("come to a cycle"));
+  CHECK_THAT(uncertainty_words(row), !Catch::Contains("estimated_lay_factor"));
+  row.estimates = "data_sheet of lead: lay_length_mm 69";
+  row.measure_next = "strength", row.measure_next_share = 0.5;
+  CHECK_THAT(uncertainty_words(row),
+             Catch::Contains("Not in the range: the lay lengths") &&
+                 Catch::Contains("dresslife run JOB -o lay --set dresspack.estimated_lay_factor=0.67"));
   row.moving_places = 3;
   CHECK_THAT(uncertainty_words(row),
              Catch::Contains("loose cables do not come to a cycle at 3 of the computed values"));
