@@ -90,22 +90,29 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   return patches;
 }
 
-/// Returns the patches of each jacket, (cable of the file).
-std::vector<std::vector<RubbedPatch>> patches_of_jackets(const FileReader& strain, std::size_t cables,
-                                                         const std::vector<double>& time) {
+/// Returns the patches of each jacket, (rest, cable of the file).
+std::vector<std::vector<std::vector<RubbedPatch>>> patches_of_jackets(const FileReader& strain, std::size_t cables,
+                                                                      const std::vector<double>& time) {
   const auto cable = strain.read<std::int32_t>("/jacket/cable");
   const auto place = strain.read<double>("/jacket/place"), work = strain.read<double>(work_of_jackets);
   const auto sample = strain.read<std::uint32_t>("/jacket/sample");
-  std::vector<std::vector<RubbedPatch>> patches(cables);
+  const auto rest =
+      strain.has("/jacket/rest") ? strain.read<std::int32_t>("/jacket/rest") : std::vector<std::int32_t>(cable.size());
+  const std::size_t rests = strain.has("/start/rest") ? strain.rows("/start/rest") : 1;
+  std::vector<std::vector<std::vector<RubbedPatch>>> patches;
   PatchCheck check(strain, "/jacket", place);
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
     check.see(k, cable[k], cables, work[k]);
     if (sample[k] >= time.size()) check.refuse(fmt::format("row {} is of no sample", k + 1));
-    patches[static_cast<std::size_t>(cable[k])].push_back(
+    if (rest[k] < 0 || static_cast<std::size_t>(rest[k]) >= rests)
+      check.refuse(fmt::format("row {} is of no rest", k + 1));
+    while (patches.size() <= static_cast<std::size_t>(rest[k])) patches.emplace_back(cables);
+    patches[static_cast<std::size_t>(rest[k])][static_cast<std::size_t>(cable[k])].push_back(
         {p[0], p[1], p[2], p[3], std::string(word(pipeline::Counterface::hose)), work[k], time[sample[k]]});
   }
   check.finish();
+  if (patches.empty()) patches.emplace_back(cables);
   return patches;
 }
 
@@ -297,6 +304,23 @@ void find_abrasion(Search& found) {
   }
 }
 
+/// Lets the life contain the places of rest of loose cables, which chance decides (W40). repeats: (rest) of the jacket that is worn
+/// through first. Returns a sentence; empty: there is one place.
+std::string add_rests(const FileReader& strain, const std::vector<double>& repeats, Abrasion& worn) {
+  if (repeats.size() < 2 || std::ranges::any_of(repeats, [](double of) { return !std::isfinite(of); })) return "";
+  double mean = 0, squares = 0;
+  const auto rests = strain.read<std::int32_t>("/start/rest");
+  const auto log_of = [&](std::int32_t rest) { return std::log10(repeats.at(static_cast<std::size_t>(rest))); };
+  const auto count = static_cast<double>(rests.size());
+  for (const std::int32_t rest : rests) mean += log_of(rest) / count;
+  for (const std::int32_t rest : rests) squares += std::pow(log_of(rest) - mean, 2);
+  worn.log10_spread = std::hypot(worn.log10_spread, std::sqrt(squares / (count - 1)));
+  const auto [least, most] = std::ranges::minmax(repeats);
+  return fmt::format(
+      "By chance the cables rest elsewhere: then these hours are {} to {} times as long, so a smaller difference between two jobs means nothing.",
+      pipeline::readable(least / repeats[0], 2), pipeline::readable(most / repeats[0], 2));
+}
+
 /// Wear of the jackets in each hose: of the cable that is worn through first. Jackets without thickness or wear rates are left
 /// out.
 void find_jackets(Search& found) {
@@ -312,17 +336,22 @@ void find_jackets(Search& found) {
     if (!is_hose(mounted)) continue;
     std::optional<std::size_t> first;
     Abrasion worst;
+    std::vector<double> repeats(patches.size(), std::numeric_limits<double>::infinity());  // (rest)
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto part = static_cast<std::size_t>(component[k]);
       if (static_cast<std::size_t>(dresspack[k]) != d || part >= mounted.components.size()) continue;
       std::optional<WornMaterial> jacket = jacket_of(mounted, mounted.components[part]);
       if (!jacket) continue;
       jacket->warm = pipeline::wear_at(job.cell.temperature);
-      const Abrasion worn = abrasion(*jacket, patches[k]);
+      for (std::size_t rest = 1; rest < patches.size(); ++rest)
+        repeats[rest] = std::min(repeats[rest], abrasion(*jacket, patches[rest][k]).repeats);
+      const Abrasion worn = abrasion(*jacket, patches[0][k]);
       if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
     }
     if (!first) continue;
     UnvalidatedMode& mode = found.add(UnvalidatedMode::jacket, d);
+    repeats[0] = worst.repeats;
+    mode.note = add_rests(strain, repeats, worst);
     if (std::isfinite(worst.repeats)) mode.place = cable_in_words(job, names[*first]), mode.time = worst.time;
     found.put_lives(mode, found.put_wear(mode, d, worst));
   }

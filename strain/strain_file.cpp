@@ -355,8 +355,8 @@ class CableRows {
 /// Where the jackets of all cables rub.
 class RubbingRows {
  public:
-  /// first: number of the span's first cable in the file.
-  void add(std::size_t first, const Evaluation& evaluation) {
+  /// first: number of the span's first cable in the file. rest: place of rest (W40).
+  void add(std::size_t first, const Evaluation& evaluation, std::size_t rest) {
     const CablePaths& cables = evaluation.cables();
     for (std::size_t k = 0; k < cables.cables(); ++k) {
       const CableRubbing* const rubbing = cables.rubbing(k);
@@ -364,6 +364,7 @@ class RubbingRows {
       recorded_ = true;
       for (const CableRubbing::Patch& patch : rubbing->patches()) {
         cable_.push_back(static_cast<std::int32_t>(first + k));
+        rest_.push_back(static_cast<std::int32_t>(rest));
         place_.insert(place_.end(), {evaluation.arcs()[patch.segment], evaluation.lengths()[patch.segment], patch.angle,
                                      CableRubbing::width()});
         work_.push_back(patch.work);
@@ -375,6 +376,7 @@ class RubbingRows {
     if (!recorded_) return;
     file.set_axis("jacket_patch", work_.size());
     file.append("/jacket/cable", cable_);
+    file.append("/jacket/rest", rest_);
     file.append("/jacket/place", place_);
     file.append("/jacket/work", work_);
     file.append("/jacket/sample", sample_);
@@ -382,7 +384,7 @@ class RubbingRows {
 
  private:
   bool recorded_ = false;
-  std::vector<std::int32_t> cable_;
+  std::vector<std::int32_t> cable_, rest_;
   std::vector<double> place_, work_;
   std::vector<std::uint32_t> sample_;
 };
@@ -390,16 +392,17 @@ class RubbingRows {
 /// Writes the data of all cables from which their forces follow. Writes nothing if there is no cable. Returns warnings: elements
 /// that are too long, and samples without rest.
 std::vector<Warning> write_cables(FileWriter& file, const pipeline::Job& job,
-                                  const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
+                                  const std::vector<std::unique_ptr<Evaluation>>& evaluations, const Starts& starts) {
   CableRows rows;
   RubbingRows rubbing;
   std::vector<const std::vector<double>*> hose_moment;  // (span with cables)
   std::vector<Warning> warnings;
   double mesh_error = 0;
   std::size_t pieces = 0, restless = 0;
-  for (const auto& evaluation : evaluations) {
+  for (std::size_t span = 0; span < evaluations.size(); ++span) {
+    const auto& evaluation = evaluations[span];
     if (!evaluation->any_cables()) continue;
-    rubbing.add(rows.size(), *evaluation);
+    for (std::size_t rest = 0; rest < starts.rests(); ++rest) rubbing.add(rows.size(), *starts.spans(rest)[span], rest);
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
     restless += evaluation->cables().restless();
@@ -661,7 +664,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.add(starts);
   static_cast<void>(pipeline::warnings_of_descriptions(job));  // for its errors; dresslife-fatigue writes the warnings
   const std::vector<Warning> warnings =
-      pipeline::joined(evening_warnings(evaluations, job), write_cables(strain, job, evaluations));
+      pipeline::joined(evening_warnings(evaluations, job), write_cables(strain, job, evaluations, starts));
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);

@@ -265,6 +265,8 @@ Format make_strain_format() {
      "displacement of loose cables from their places, toward d1 and d2; only with one span"},
     {"/jacket/cable",            i32,  "jacket_patch",       "1",    maybe | deflated,
      "cable of each patch of jacket that rubs in the hose; absent: no cable has friction, or an older file"},
+    {"/jacket/rest",             i32,  "jacket_patch",       "1",    maybe | deflated,
+     "place of rest, a number of /start/rest; absent: 0, in older files"},
     {"/jacket/place",            f64,  "jacket_patch, 4",    "m, m, rad, rad", maybe | deflated,
      "middle of the patch from the base clamp along the dresspack, its length; its middle around the cable from d1 toward "
      "d2, its width"},

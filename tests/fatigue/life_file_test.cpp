@@ -71,8 +71,10 @@ struct StrainFile {
     std::int32_t cable;
     double position, work;  // [m], [J]
     std::uint32_t sample;
+    std::int32_t rest = 0;
   };
-  std::vector<Jacket> jackets;  // patches of 5 mm in one sector of 10 degrees; empty: no table
+  std::vector<std::int32_t> rests;  // (start)
+  std::vector<Jacket> jackets;      // patches of 5 mm in one sector of 10 degrees; empty: no table
   struct Cable {
     std::int32_t span;
     std::vector<double> place;     // base d1, d2, tool d1, d2 [m]
@@ -184,10 +186,12 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   }
   for (const StrainFile::Jacket& jacket : f.jackets) {
     file.append("/jacket/cable", std::vector<std::int32_t>{jacket.cable});
+    file.append("/jacket/rest", std::vector<std::int32_t>{jacket.rest});
     file.append("/jacket/place", std::vector<double>{jacket.position, 5e-3, 1, std::numbers::pi / 18});
     file.append("/jacket/work", std::vector<double>{jacket.work});
     file.append("/jacket/sample", std::vector<std::uint32_t>{jacket.sample});
   }
+  if (!f.rests.empty()) file.append("/start/rest", f.rests);
   if (!f.cables.empty()) {
     file.set_axis("cable", f.cables.size());
     file.set_axis("cable_span", f.hose_moment.size());
@@ -1315,6 +1319,22 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
   job.cell.temperature = 43;
   CHECK(jackets_of("warm.h5").first[0].hours[1] == Approx(modes[0].hours[1] / std::exp(0.0175 * 20)).epsilon(strata));
+  job.cell.temperature = pipeline::Cell::usual_temperature;
+  // log10 of the lives of three starts is -0.5, 0 and 0.5 from the job's own. They widen the range by their deviation of 0.5.
+  const auto alone = f.jackets;
+  f.rests = {1, 0, 2};
+  f.jackets.push_back({0, 0.15, 1e4 * std::sqrt(10), 60, 1}),
+      f.jackets.push_back({1, 0.15, 1e4 / std::sqrt(10), 60, 2});
+  const auto resting = jackets_of("rests.h5").first[0];
+  CHECK(resting.place == "cable 2");
+  CHECK(resting.hours[1] == Approx(modes[0].hours[1]).epsilon(strata));
+  const auto spread = [](const auto& mode) { return std::log10(mode.hours[2] / mode.hours[0]) / (2 * 1.28155); };
+  CHECK(spread(resting) == Approx(std::hypot(spread(modes[0]), 0.5)).epsilon(strata));
+  CHECK_THAT(resting.note, Catch::Contains("these hours are 0.32 to 3.2 times as long"));
+  CHECK(modes[0].note.empty());  // one place of rest
+  f.jackets.back().rest = 3;
+  CHECK_THROWS_WITH(run(folder, f, job, "elsewhere.h5"), Catch::Contains("/jacket: row 4 is of no rest"));
+  f.jackets = alone, f.rests.clear();
   f.jackets[1].cable = 2;
   CHECK_THROWS_WITH(
       run(folder, f, job, "damaged.h5"),

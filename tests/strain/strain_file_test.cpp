@@ -382,6 +382,12 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
     CHECK(off.read<float>("/reversal/strain") == strain);
     CHECK(off.has("/start/rest"));
   }
+  {  // jackets rub at every rest
+    const FileReader file = evaluated(
+        {"strain.slip=friction", "dresspack.components.1.friction_coefficient=0.3", "uncertainty.enabled=false"});
+    const auto rubs = file.read<std::int32_t>("/jacket/rest");
+    for (const std::int32_t rest : file.read<std::int32_t>("/start/rest")) CHECK(std::ranges::count(rubs, rest) > 0);
+  }
   text = replaced(text, "count: 3", "count: 1");
   const FileReader one = evaluated({"uncertainty.enabled=true"});
   CHECK_FALSE(one.has("/start/rest"));
