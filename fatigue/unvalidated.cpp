@@ -513,8 +513,10 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
     const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
     const auto of_twist = std::ranges::count_if(part.ratings, twisted);
     const bool hose = part.plain->kind == pipeline::PlainKind::hose;
-    if (part.ratings.empty()) return add((hose ? "fatigue and pressure of " : "") + part.name);
-    if (hose) add("pressure of " + part.name);
+    const bool pressed = part.plain->pressure && part.plain->most_pressure;  // compared with its maker's limit
+    if (part.ratings.empty())
+      return add((!hose ? "" : pressed ? "fatigue of " : "fatigue and pressure of ") + part.name);
+    if (hose && !pressed) add("pressure of " + part.name);
     if (of_twist == 0) add("twist of " + part.name);
     if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);
   };

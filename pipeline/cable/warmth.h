@@ -15,6 +15,7 @@
 // strain-life points of a hose's wall, and values that a job gives as numbers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/job/shapes.h"
@@ -27,6 +28,12 @@ constexpr double softening = 0.0175, softening_deviation = 0.0075;
 /// Returns a polymer's modulus / its modulus at 23 C. temperature [C].
 inline double stiffness_at(double temperature) {
   return std::exp(-softening * (temperature - Cell::usual_temperature));
+}
+
+/// Returns the pressure that a polymer tube bears / that at 20 C, by the tables above. Below 20 C the fittings limit it.
+inline double pressure_at(double temperature) {
+  constexpr double of_makers = 20;  // [C]
+  return std::exp(-softening * std::max(0.0, temperature - of_makers));
 }
 
 /// Factor of a wear rate, and the standard deviation of its log10.

@@ -22,6 +22,12 @@ void describe(Fields& f, PlainPart& part) {
       "least_bend_radius_mm", part.least_bend_radius, above(0),
       "The least bend radius of a hose by its maker, at its axis. A tighter bend counts as a kink. Default: the radius "
       "at which its wall kinks, an ESTIMATE from its two diameters.");
+  f.maybe_number("pressure_bar", part.pressure, above(0),
+                 "The largest working pressure in a hose, above that of the air outside.");
+  f.maybe_number(
+      "most_pressure_bar", part.most_pressure, above(0),
+      "The working pressure that the maker of a hose allows at 20 C. Above it pressure_bar causes a warning. In a cell above 20 C "
+      "the limit decreases by 1.75 % per kelvin.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
@@ -34,6 +40,9 @@ void check_plain_part(const PlainPart& part, double radius, std::string_view nam
   if (part.kind != PlainKind::hose && part.least_bend_radius)
     throw InputError(part.where, fmt::format("'{}' is a {} and has a least_bend_radius_mm", name, word(part.kind)),
                      "set kind: hose, or leave it out");
+  if (part.kind != PlainKind::hose && (part.pressure || part.most_pressure))
+    throw InputError(part.where, fmt::format("'{}' is a {} and has a pressure", name, word(part.kind)),
+                     "set kind: hose, or leave out pressure_bar and most_pressure_bar");
   if (part.least_bend_radius && *part.least_bend_radius < radius)
     throw InputError(part.where,
                      fmt::format("'{}' has least_bend_radius_mm {:.4g} (it is {:.4g} mm wide outside)", name,

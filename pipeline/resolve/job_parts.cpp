@@ -100,6 +100,8 @@ void describe(Fields& echo, KinkKeys& keys) {
   echo.number("helix_radius_mm", keys.helix_radius, Need::required, any_number(), "");
   echo.maybe_number("bore_mm", keys.plain.bore, any_number(), "");
   echo.maybe_number("least_bend_radius_mm", keys.plain.least_bend_radius, any_number(), "");
+  echo.maybe_number("pressure_bar", keys.plain.pressure, any_number(), "");
+  echo.maybe_number("most_pressure_bar", keys.plain.most_pressure, any_number(), "");
 }
 
 /// Keys of a cable whose jacket may wear.
@@ -116,7 +118,11 @@ void describe(Fields& echo, JacketKeys& keys) {
 /// Removes the keys that only dresslife-fatigue uses.
 void drop_fatigue_keys(Dresspack& dresspack) {
   drop_ratings(dresspack);
-  for (Component& component : dresspack.components) component.jacket.reset();
+  for (std::vector<Component>* const parts : {&dresspack.components, &dresspack.core_components})
+    for (Component& component : *parts) {
+      if (component.plain) component.plain->pressure.reset(), component.plain->most_pressure.reset();
+      if (parts == &dresspack.components) component.jacket.reset();
+    }
 }
 
 /// Keys of a dresspack that affect its lives.
@@ -180,13 +186,13 @@ void describe_sim(Fields& echo, Job& copy) {
     mounted.routing.longest_bracket.reset();
     Dresspack& dresspack = mounted.dresspack;
     dresspack.estimates.clear();
+    dresspack.estimated_lay_factor.reset();
     count_as_numbers(dresspack);
     if (copy.motion.is_prescribed()) break;  // the wires determine how a pull stretches the cable
     dresspack.components.clear();
     dresspack.materials.clear();
     dresspack.hose_material.clear();
     dresspack.hose_strain_factor.reset();
-    dresspack.estimated_lay_factor.reset();
     dresspack.hose_corrugation.reset();
     dresspack.inner_diameter.reset();
     dresspack.core_diameter = 0;

@@ -83,6 +83,7 @@ constexpr std::array units{
     Unit{"Nm2", "N m2", 1, 1e7},  // E I of the same bar
     Unit{"mNm", "mN m", 1e-3, 1e9},
     Unit{"MPa", "MPa", 1e6, 1e7},
+    Unit{"bar", "bar", 1e5, 1e5},
     Unit{"GPa", "GPa", 1e9, 1e4},                // diamond: 1e3
     Unit{"mm3_per_Nm", "mm3/(N m)", 1e-9, 1e3},  // abrasive cloth: 0.1
     Unit{"C", "C", 1, 1e4},

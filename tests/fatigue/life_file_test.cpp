@@ -1400,6 +1400,9 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   CHECK(rated_modes(of_hose)[0].hours[1] == Approx(modes[0].hours[1]));
   CHECK_THAT(of_hose.text_attribute("not_evaluated"),
              Catch::StartsWith("pressure of power cable, twist of power cable, abrasion"));
+  dresspack.components.back().plain->pressure = 6e5, dresspack.components.back().plain->most_pressure = 10e5;
+  const FileReader pressed(run(folder, f, job, "pressed.h5").file, pipeline::life_format());
+  CHECK_THAT(pressed.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
 }
 
 TEST_CASE(
@@ -1438,6 +1441,12 @@ TEST_CASE(
     CHECK_THAT(life.text_attribute("not_evaluated"),
                Catch::StartsWith("fatigue and pressure of air hose, fatigue and pressure of water hose, abrasion"));
   }
+  // A pressure is compared with its limit, so only the fatigue is left out. One without a limit is not.
+  dresspack.core_components[0].plain->pressure = dresspack.components[0].plain->pressure = 6e5;
+  dresspack.core_components[0].plain->most_pressure = 10e5;
+  CHECK_THAT(
+      FileReader(run(folder, f, job, "pressed.h5").file, pipeline::life_format()).text_attribute("not_evaluated"),
+      Catch::StartsWith("fatigue and pressure of air hose, fatigue of water hose, abrasion"));
   f.curvature = 1 / (kinks_at + 0.01);
   const auto near = kink_of(FileReader(run(folder, f, job, "near.h5").file, pipeline::life_format()));
   CHECK(near.first_share == Approx(0.5).margin(1e-3));

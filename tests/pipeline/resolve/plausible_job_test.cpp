@@ -35,6 +35,33 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
+TEST_CASE("plausible jobs: a hose with more pressure than its maker allows at the cell's temperature is warned of") {
+  const auto warnings_at = [](double bar, double temperature) {
+    Component hose;
+    hose.name = "water hose";
+    hose.plain = PlainPart{};
+    hose.plain->kind = PlainKind::hose;
+    hose.plain->pressure = 8e5;
+    if (bar > 0) hose.plain->most_pressure = 1e5 * bar;
+    Job job;
+    job.motion.rig.emplace();
+    job.dresspacks.resize(1);
+    job.dresspacks[0].dresspack.core_components.push_back(hose);
+    job.cell.temperature = temperature;
+    return plausibility_of_lives(job);
+  };
+  CHECK(warnings_at(0, 20).empty());  // no limit
+  CHECK(warnings_at(8, 20).empty());
+  CHECK(warnings_at(8, 10).empty());
+  REQUIRE(warnings_at(7.9, 20).size() == 1);
+  CHECK_THAT(warnings_at(7.9, 10)[0].words,
+             Catch::StartsWith("the pressure_bar of water hose is 8 (limit 7.9 at 10 C by most_pressure_bar)"));
+  CHECK(warnings_at(11.36, 40).empty());  // SMC, polyamide 12: 0.70 of that at 20 C
+  REQUIRE(warnings_at(11.34, 40).size() == 1);
+  CHECK_THAT(warnings_at(10, 40)[0].words,
+             Catch::Contains("(limit 7.05 at 40 C by most_pressure_bar, with 1.75 % less per kelvin"));
+}
+
 TEST_CASE("plausible jobs: the doubts of a calibration and ratings without an effect are warned of") {
   Job job;
   CHECK(plausibility_of_lives(job).empty());
