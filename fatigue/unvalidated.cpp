@@ -16,6 +16,7 @@
 #include "fatigue/inspection.h"
 #include "fatigue/life_distribution.h"
 #include "fatigue/rated_cables.h"
+#include "fatigue/response.h"
 #include "fatigue/verdict.h"
 #include "fatigue/wear.h"
 #include "pipeline/base/readable.h"
@@ -90,29 +91,27 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   return patches;
 }
 
-/// Returns the patches of each jacket, (rest, cable of the file).
-std::vector<std::vector<std::vector<RubbedPatch>>> patches_of_jackets(const FileReader& strain, std::size_t cables,
+/// Returns the patches of each jacket, (rest, cable of the file). rests: number of rests of the loose cables.
+std::vector<std::vector<std::vector<RubbedPatch>>> patches_of_jackets(const FileReader& strain, std::size_t rests,
+                                                                      std::size_t cables,
                                                                       const std::vector<double>& time) {
   const auto cable = strain.read<std::int32_t>("/jacket/cable");
   const auto place = strain.read<double>("/jacket/place"), work = strain.read<double>(work_of_jackets);
   const auto sample = strain.read<std::uint32_t>("/jacket/sample");
-  const auto rest =
-      strain.has("/jacket/rest") ? strain.read<std::int32_t>("/jacket/rest") : std::vector<std::int32_t>(cable.size());
-  const std::size_t rests = strain.has("/start/rest") ? strain.rows("/start/rest") : 1;
-  std::vector<std::vector<std::vector<RubbedPatch>>> patches;
+  const auto rest = strain.has("/jacket/rest") ? strain.read<std::int32_t>("/jacket/rest")
+                                               : std::vector<std::int32_t>(work.size(), 0);
+  std::vector patches(rests, std::vector<std::vector<RubbedPatch>>(cables));
   PatchCheck check(strain, "/jacket", place);
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
     check.see(k, cable[k], cables, work[k]);
     if (sample[k] >= time.size()) check.refuse(fmt::format("row {} is of no sample", k + 1));
     if (rest[k] < 0 || static_cast<std::size_t>(rest[k]) >= rests)
-      check.refuse(fmt::format("row {} is of no rest", k + 1));
-    while (patches.size() <= static_cast<std::size_t>(rest[k])) patches.emplace_back(cables);
+      check.refuse(fmt::format("row {} is of no rest of the cables", k + 1));
     patches[static_cast<std::size_t>(rest[k])][static_cast<std::size_t>(cable[k])].push_back(
         {p[0], p[1], p[2], p[3], std::string(word(pipeline::Counterface::hose)), work[k], time[sample[k]]});
   }
   check.finish();
-  if (patches.empty()) patches.emplace_back(cables);
   return patches;
 }
 
@@ -124,6 +123,8 @@ struct Search {
   std::vector<double> time = strain.read<double>("/time");
   std::vector<std::int32_t> step = strain.read<std::int32_t>("/program/step");
   std::vector<std::string> text = strain.read<std::string>("/program/text");
+  /// (rest of the loose cables) number of starts that came to it; empty: there is one rest.
+  std::vector<std::size_t> starts = read_rests(strain);
   std::vector<UnvalidatedMode> modes = {};
   std::vector<std::string> left_out = {};  ///< modes of some dresspack that are not evaluated
   std::vector<pipeline::Warning> warnings = {};
@@ -140,23 +141,32 @@ struct Search {
     return std::vector<double>(lives.size(), std::numeric_limits<double>::infinity());
   }
 
-  /// Returns lives over the samples of the validated modes. log10_spread: standard deviation of log10 of repeats, sampled
+  /// Returns lives over the samples of the validated modes. repeats: at each rest of the loose cables, the job's own first (W40);
+  /// a mode that does not depend on the rest has one value. log10_spread: standard deviation of log10 of repeats, sampled
   /// independently of them. of: a part; modes with equal mode and part have the same samples of the spread.
-  std::vector<double> own_lives(const UnvalidatedMode& mode, double repeats, double log10_spread,
+  std::vector<double> own_lives(const UnvalidatedMode& mode, std::span<const double> repeats, double log10_spread,
                                 const std::string& of = "") const {
-    if (!std::isfinite(repeats)) return never();
+    if (std::ranges::none_of(repeats, [](double at) { return std::isfinite(at); })) return never();
     LifeResponse response;
     response.mode = mode.mode + of;
     response.dresspack = mode.dresspack;
     response.knowledge = pipeline::prior_of(job.uncertainty);
     if (!job.uncertainty.enabled) response.knowledge.covariance.setZero();
-    const double median = std::min(std::log10(repeats), LifeResponse::undamaged);
-    response.worst_life = {median};
+    response.worst_life.clear();
+    for (const double at : repeats) response.worst_life.push_back(std::min(std::log10(at), LifeResponse::undamaged));
+    const double median = response.worst_life.front();
     response.bound = {median, median, median};
     response.planned.resize(1);
     for (std::size_t i = 0; i < percentiles.size(); ++i)
       response.planned[0][i] = median + pipeline::normal_quantile(percentiles[i]) * log10_spread;
     response.scatter_shared = 0;
+    response.residual_spread = 0;  // the residual is that of the lives of wires
+    if (repeats.size() > 1) {
+      response.points.resize(repeats.size()), response.inside.resize(repeats.size(), pipeline::Inside::as_is);
+      std::vector<VariedStrains> others(repeats.size() - 1);
+      for (std::size_t rest = 1; rest < repeats.size(); ++rest) others[rest - 1].rest = rest;
+      put_rests(response, others, starts);
+    }
     return pipeline::first_failures({response}, "", lives.size());
   }
 
@@ -175,12 +185,11 @@ struct Search {
     if (sample < step.size() && step[sample] >= 0) mode.step = text[static_cast<std::size_t>(step[sample])];
   }
 
-  /// Sets the place of the worst patch. Returns the lives of the wear.
-  std::vector<double> put_wear(UnvalidatedMode& mode, std::size_t dresspack, const Abrasion& worn) const {
+  /// Sets the place of the worst patch.
+  void put_worn_place(UnvalidatedMode& mode, std::size_t dresspack, const Abrasion& worn) const {
     if (std::isfinite(worn.repeats))
       put_place(mode, dresspack, worn.position,
                 static_cast<std::size_t>(std::ranges::lower_bound(time, worn.time) - time.begin()));
-    return own_lives(mode, worn.repeats, worn.log10_spread);
   }
 };
 
@@ -297,28 +306,12 @@ void find_abrasion(Search& found) {
     UnvalidatedMode& mode = found.add(UnvalidatedMode::abrasion, d);
     mode.place = worn.obstacle;
     mode.time = worn.time;
-    std::vector<double> own = found.put_wear(mode, d, worn);
+    found.put_worn_place(mode, d, worn);
+    std::vector<double> own = found.own_lives(mode, {&worn.repeats, 1}, worn.log10_spread);
     mode.visible_from = visible_from(*material, worn, job.inspection);
     if (job.inspection.interval_weeks > 0) put_inspection(mode, own, found.lives, found.repeat(), job);
     found.put_lives(mode, std::move(own));
   }
-}
-
-/// Lets the life contain the places of rest of loose cables, which chance decides (W40). repeats: (rest) of the jacket that is worn
-/// through first. Returns a sentence; empty: there is one place.
-std::string add_rests(const FileReader& strain, const std::vector<double>& repeats, Abrasion& worn) {
-  if (repeats.size() < 2 || std::ranges::any_of(repeats, [](double of) { return !std::isfinite(of); })) return "";
-  double mean = 0, squares = 0;
-  const auto rests = strain.read<std::int32_t>("/start/rest");
-  const auto log_of = [&](std::int32_t rest) { return std::log10(repeats.at(static_cast<std::size_t>(rest))); };
-  const auto count = static_cast<double>(rests.size());
-  for (const std::int32_t rest : rests) mean += log_of(rest) / count;
-  for (const std::int32_t rest : rests) squares += std::pow(log_of(rest) - mean, 2);
-  worn.log10_spread = std::hypot(worn.log10_spread, std::sqrt(squares / (count - 1)));
-  const auto [least, most] = std::ranges::minmax(repeats);
-  return fmt::format(
-      "By chance the cables rest elsewhere: then these hours are {} to {} times as long, so a smaller difference between two jobs means nothing.",
-      pipeline::readable(least / repeats[0], 2), pipeline::readable(most / repeats[0], 2));
 }
 
 /// Wear of the jackets in each hose: of the cable that is worn through first. Jackets without thickness or wear rates are left
@@ -330,30 +323,32 @@ void find_jackets(Search& found) {
   const auto names = strain.read<std::string>("/cable/name");
   const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"),
              component = strain.read<std::int32_t>("/cable/component");
-  const auto patches = patches_of_jackets(strain, names.size(), found.time);
+  const std::size_t rests = std::max<std::size_t>(1, found.starts.size());
+  const auto patches = patches_of_jackets(strain, rests, names.size(), found.time);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const pipeline::Dresspack& mounted = job.dresspacks[d].dresspack;
     if (!is_hose(mounted)) continue;
     std::optional<std::size_t> first;
-    Abrasion worst;
-    std::vector<double> repeats(patches.size(), std::numeric_limits<double>::infinity());  // (rest)
+    Abrasion worst;                                                               // at the job's own rest
+    std::vector<double> repeats(rests, std::numeric_limits<double>::infinity());  // (rest) of the first worn jacket
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto part = static_cast<std::size_t>(component[k]);
       if (static_cast<std::size_t>(dresspack[k]) != d || part >= mounted.components.size()) continue;
       std::optional<WornMaterial> jacket = jacket_of(mounted, mounted.components[part]);
       if (!jacket) continue;
       jacket->warm = pipeline::wear_at(job.cell.temperature);
-      for (std::size_t rest = 1; rest < patches.size(); ++rest)
-        repeats[rest] = std::min(repeats[rest], abrasion(*jacket, patches[rest][k]).repeats);
-      const Abrasion worn = abrasion(*jacket, patches[0][k]);
-      if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
+      for (std::size_t rest = 0; rest < rests; ++rest) {
+        const Abrasion worn = abrasion(*jacket, patches[rest][k]);
+        repeats[rest] = std::min(repeats[rest], worn.repeats);
+        if (rest == 0 && (!first || worn.repeats < worst.repeats)) first = k, worst = worn;
+      }
     }
     if (!first) continue;
+    if (!strain.has("/jacket/rest") || !job.uncertainty.enabled) repeats.resize(1);
     UnvalidatedMode& mode = found.add(UnvalidatedMode::jacket, d);
-    repeats[0] = worst.repeats;
-    mode.note = add_rests(strain, repeats, worst);
     if (std::isfinite(worst.repeats)) mode.place = cable_in_words(job, names[*first]), mode.time = worst.time;
-    found.put_lives(mode, found.put_wear(mode, d, worst));
+    found.put_worn_place(mode, d, worst);
+    found.put_lives(mode, found.own_lives(mode, repeats, worst.log10_spread));
   }
 }
 
@@ -390,7 +385,7 @@ void find_ratings(Search& found) {
         found.put_place(mode, d, hose->position[rated.segment], rated.sample);
         mode.time = found.time[rated.sample];
       }
-      found.put_lives(mode, found.own_lives(mode, rated.repeats, rated.log10_spread, " of " + part->name));
+      found.put_lives(mode, found.own_lives(mode, {&rated.repeats, 1}, rated.log10_spread, " of " + part->name));
     }
   }
 }
@@ -419,7 +414,7 @@ void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tens
       mode.note +=
           " The motion does not end in its first pose, so whether repeats add up to more twist is not evaluated.";
     constexpr double spread = 0.3;  // deviation: stiffnesses of a cable are known to a factor of two; ESTIMATE
-    std::vector<double> own = found.own_lives(mode, worst->repeats, spread);
+    std::vector<double> own = found.own_lives(mode, {&worst->repeats, 1}, spread);
     const std::vector<double> stiffness =
         pipeline::standard_normals("margin of " + mode.mode + " " + mode.dresspack, own.size());
     for (std::size_t s = 0; s < own.size(); ++s)

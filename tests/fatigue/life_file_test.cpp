@@ -1320,21 +1320,31 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   job.cell.temperature = 43;
   CHECK(jackets_of("warm.h5").first[0].hours[1] == Approx(modes[0].hours[1] / std::exp(0.0175 * 20)).epsilon(strata));
   job.cell.temperature = pipeline::Cell::usual_temperature;
-  // log10 of the lives of three starts is -0.5, 0 and 0.5 from the job's own. They widen the range by their deviation of 0.5.
-  const auto alone = f.jackets;
-  f.rests = {1, 0, 2};
-  f.jackets.push_back({0, 0.15, 1e4 * std::sqrt(10), 60, 1}),
-      f.jackets.push_back({1, 0.15, 1e4 / std::sqrt(10), 60, 2});
-  const auto resting = jackets_of("rests.h5").first[0];
-  CHECK(resting.place == "cable 2");
-  CHECK(resting.hours[1] == Approx(modes[0].hours[1]).epsilon(strata));
-  const auto spread = [](const auto& mode) { return std::log10(mode.hours[2] / mode.hours[0]) / (2 * 1.28155); };
-  CHECK(spread(resting) == Approx(std::hypot(spread(modes[0]), 0.5)).epsilon(strata));
-  CHECK_THAT(resting.note, Catch::Contains("these hours are 0.32 to 3.2 times as long"));
-  CHECK(modes[0].note.empty());  // one place of rest
-  f.jackets.back().rest = 3;
-  CHECK_THROWS_WITH(run(folder, f, job, "elsewhere.h5"), Catch::Contains("/jacket: row 4 is of no rest"));
-  f.jackets = alone, f.rests.clear();
+  // At the other half of the rests the same jacket has ten times the work. Log10 of its life is linear in the normal score of the
+  // rest between the scores of the two halves, and constant beyond them. Wear rate, thickness and motion are normal and independent.
+  job.uncertainty.enabled = true;
+  const auto alone = jackets_of("one_rest.h5").first[0].hours;
+  f.rests = {0, 1, 0, 1};
+  f.jackets.push_back({1, 0.15, 1e5, 60, 1});
+  const auto spread = jackets_of("two_rests.h5").first[0].hours;
+  const auto decades = [](double longer, double shorter) { return std::log10(longer / shorter); };
+  const double half = pipeline::normal_quantile(0.75),
+               deviation = decades(alone[1], alone[0]) / pipeline::normal_quantile(0.9);
+  double failed = 0;  // share at the life spread[0]
+  constexpr int parts = 1000;
+  for (int k = 0; k < parts; ++k) {
+    const double score = std::clamp(pipeline::normal_quantile((k + 0.5) / parts), -half, half);
+    failed += pipeline::normal_share((decades(spread[0], alone[1]) + 0.5 - score / half / 2) / deviation) / parts;
+  }
+  constexpr double sampling = 0.01;  // three standard errors of the share of 10,000 samples
+  CHECK(failed == Approx(0.1).margin(sampling));
+  CHECK(decades(alone[1], spread[1]) ==
+        Approx(0.5).margin(2.5 * sampling * deviation));  // 2.5: 1 over the normal density
+  job.uncertainty.enabled = false;
+  CHECK(jackets_of("certain_rest.h5").first[0].hours[1] == Approx(modes[0].hours[1]).epsilon(strata));
+  f.jackets[2].rest = 2;
+  CHECK_THROWS_WITH(run(folder, f, job, "restless.h5"), Catch::Contains("/jacket: row 3 is of no rest of the cables"));
+  f.jackets.pop_back(), f.rests.clear();
   f.jackets[1].cable = 2;
   CHECK_THROWS_WITH(
       run(folder, f, job, "damaged.h5"),
