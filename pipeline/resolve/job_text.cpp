@@ -55,7 +55,8 @@ void take_length_of_rig(Job& job) {
 /// Reads a job. Resolves the names in the document.
 Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   if (!document.is_map()) throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
-  if (!document.find("robot") && !document.find("motion")) refuse_other_kind(document, DocumentKind::job);
+  if (document.find("base") || (!document.find("robot") && !document.find("motion")))
+    refuse_other_kind(document, DocumentKind::job);
   Problems problems;
   problems.attempt("", document.where, [&] { apply_lines(document); });
   for (const std::string& set : sets) problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });

@@ -480,6 +480,9 @@ TEST_CASE("job: what contradicts itself is refused") {
 }
 
 TEST_CASE("job: what is no job says so") {
+  CHECK(
+      message_of([] { job_of_text("base: job.yaml\nmotion: easy\nvary: {strain.slip: [free, stick]}\n"); }) ==
+      "job.yaml:1:1: error: is a study (it has the key 'base'), no job; give it to dresslife run, improve or reprogram");
   CHECK(message_of([] { job_of_text(""); }) ==
         "job.yaml:1:1: error: holds no job; write robot, motion, dresspack, routing");
   CHECK(message_of([] { job_of_text("- a\n- b\n"); }) ==
