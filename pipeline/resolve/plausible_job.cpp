@@ -146,6 +146,11 @@ struct Seen {
   bool only_timed = true;      ///< all moves are joint moves, and all except the first have durations
 };
 
+/// Returns whether the step's program writes speeds in m/s, as KRL and URScript do. The others, and the keys, write mm/s.
+bool in_metres(const MotionStep& step) {
+  return step.where.file.ends_with(".src") || step.where.file.ends_with(".script");
+}
+
 double fastest_tool_of(const MotionStep& step) {
   return step.where.file.ends_with(".src") ? fastest_of_kuka : fastest_tool;
 }
@@ -371,12 +376,17 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   if (const MotionStep* step = seen.fast.first) {
     const double speed = *step->tool_speed, limit = fastest_tool_of(*step);
     const bool slipped = speed < surely_millimetres && 0.1 * speed <= limit;
-    seen.fast.warn(add, fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", speed, limit),
-                   slipped ? "a slip of the decimal point" : "a speed in another unit, such as mm/s instead of m/s",
-                   slipped ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * speed)
-                           : if_kept(1e-3 * speed <= limit,
-                                     fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * speed),
-                                     fmt::format("{:g} m/s or less, in the program's unit", limit)));
+    const auto written = [metres = in_metres(*step)](double v) {
+      return metres ? fmt::format("{:g} m/s", v) : fmt::format("{:g} mm/s", 1e3 * v);
+    };
+    const bool millimetres = in_metres(*step) && 1e-3 * speed <= limit;
+    seen.fast.warn(add, fmt::format("the tool's speed is {} (limit {} or less)", written(speed), written(limit)),
+                   slipped       ? "a slip of the decimal point"
+                   : millimetres ? "mm/s instead of m/s"
+                                 : "a speed in another unit",
+                   slipped ? fmt::format("{} if the decimal point slipped, in the program's unit", written(0.1 * speed))
+                   : millimetres ? fmt::format("{} if that was mm/s", written(1e-3 * speed))
+                                 : fmt::format("{} or less, in the program's unit", written(limit)));
   }
   if (const MotionStep* step = seen.lazy.first)
     seen.lazy.warn(
