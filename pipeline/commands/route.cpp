@@ -417,7 +417,8 @@ std::string comparison_words(const Trial& trial, const MountingTolerance& tolera
   return text;
 }
 
-std::string words_of(const Trial& trial, const Draft& draft, const MountingTolerance& tolerance) {
+/// job: the file that is written.
+std::string words_of(const Trial& trial, const Draft& draft, const MountingTolerance& tolerance, const fs::path& job) {
   const Outcome& best = trial.outcomes[*trial.best];
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
   std::string text;
@@ -438,7 +439,8 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
                         by.by, by.remedy);
   }
   text += comparison_words(trial, tolerance) + tolerance_words(trial.nudges, tolerance);
-  const RankingRow& row = trial.rows[*trial.best];
+  RankingRow row = trial.rows[*trial.best];
+  row.file = job.string();
   for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
   text = trial.proposals.candidates[*trial.best].changes + wrapped_lines(text, screen_columns());
@@ -518,7 +520,8 @@ int route(const RouteOptions& options) {
   write_job(of, draft, options, job, "");
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
-  print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options)) : routing + "Only short runs tried it.\n"));
+  print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options), job)
+                      : routing + "Only short runs tried it.\n"));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return of.feasible() && ended.empty() ? 0 : 1;
 }

@@ -75,11 +75,12 @@ struct RunArguments : RunOptions {
   bool dry_run = false;
 };
 
-/// Adds file and line to the warnings about settings of a job that is no study.
+/// Adds its file, and file and line of the warnings about settings, to a job that is no study.
 void locate(std::vector<RankingRow>& rows, const fs::path& file) {
   const Node document = read_document(file);
-  if (rows.size() == 1 && rows.front().warnings && !document.find("base"))
-    rows.front().warnings = located(*std::move(rows.front().warnings), document);
+  if (rows.size() != 1 || document.find("base")) return;
+  rows.front().file = file.string();
+  if (rows.front().warnings) rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 
 /// Returns the notes of the jobs about tools whose space is not known and about assumed values of their programs, each once. Of more
@@ -145,8 +146,8 @@ int run(const RunArguments& options) {
       options.study, failed, study.jobs.size()));
   for (const fs::path& page : previews)
     write_stderr(
-        fmt::format("note: what the simulation refuses can be seen in {}; after a change: dresslife preview JOB.yaml\n",
-                    page.string()));
+        fmt::format("note: what the simulation refuses can be seen in {}; after a change: dresslife preview {}\n",
+                    page.string(), rows.front().file.empty() ? "JOB.yaml" : rows.front().file));
   return 1;
 }
 

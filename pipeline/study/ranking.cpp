@@ -448,9 +448,11 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   if (rows.size() == 1 && rows[0].done()) {
     const std::string action = action_words(rows[0]);
     const bool can_move = action.starts_with("Plan") && !rows[0].worst_joint.empty();
-    const char* const longer =
+    const std::string longer =
         can_move
-            ? " dresslife improve JOB searches for better clamps and lengths, dresslife reprogram JOB for gentler moves."
+            ? fmt::format(
+                  " dresslife improve {0} searches for better clamps and lengths, dresslife reprogram {0} for gentler moves.",
+                  job_file(rows[0]))
             : "";
     text += wrapped(action + longer, width, "") + '\n';
   }

@@ -382,15 +382,17 @@ std::string held_words(const RankingRow& row) {
       row.held_joint);
 }
 
+std::string job_file(const RankingRow& row) { return row.file.empty() ? "JOB" : row.file; }
+
 std::string joint_words(const RankingRow& row) {
   if (!row.held_joint.empty()) return "";
   if (!is_damaged(row) || row.worst_joint.empty()) return "";
   const std::string moved = row.worst_joint == "carrying"
                                 ? "The damage follows the swing of the hose more than the position of any axis."
                                 : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
-  return moved +
-         " That is a correlation, no cause. This job without the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=" +
-         (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
+  return moved + " That is a correlation, no cause. This job without the axis shows what it costs: dresslife run " +
+         job_file(row) +
+         " -o held --set motion.hold_joint=" + (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
 }
 
 std::string repeat_words(const RankingRow& row) {

@@ -231,12 +231,14 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
                       story.gain.empty() ? "" : "\n", judged, story.choice);
   text += beyond_words(trial.worst, was);
   if (!gain) return wrapped_lines(text + left_of(finals, finals.of.front()), screen_columns());
-  if (const RankingRow* const row = finals.worst_row(best)) {
-    for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
+  if (const RankingRow* const found_row = finals.worst_row(best)) {
+    RankingRow row = *found_row;
+    row.file = (places.job(row.job) / "job.yaml").string();
+    for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
       text += words + (words.empty() ? "" : "\n");
-    text += left_at_other_values(*row);
-    text = wrapped_lines(text, screen_columns()) + mode_table(*row, screen_columns(), "") +
-           mode_legend({*row}, screen_columns(), "");
+    text += left_at_other_values(row);
+    text = wrapped_lines(text, screen_columns()) + mode_table(row, screen_columns(), "") +
+           mode_legend({row}, screen_columns(), "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs) text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
