@@ -42,6 +42,14 @@ std::string doubtful_key(const std::vector<Warning>& warnings) {
   return fmt::format(" ({})", key);
 }
 
+/// Returns "twist x3"; empty: there is no warning of this kind.
+std::string kind_words(const std::vector<Warning>& warnings, WarningKind kind) {
+  const auto count = std::ranges::count(warnings, kind, &Warning::kind);
+  if (count == 0) return "";
+  return (count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count)) +
+         (kind == WarningKind::material ? doubtful_key(warnings) : "");
+}
+
 }  // namespace
 
 bool spoils_plan(const Warning& warning) {
@@ -60,13 +68,14 @@ std::string warning_kinds(const RankingRow& row, bool with_other_values) {
   std::vector<std::string> words;
   for (int k = 0; k < warning_kinds_count; ++k) {
     const auto kind = static_cast<WarningKind>(k);
-    if (const auto count = std::ranges::count(warnings, kind, &Warning::kind);
-        count > 0 && (with_other_values || kind != WarningKind::other_values))
-      words.push_back((count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count)) +
-                      (kind == WarningKind::material ? doubtful_key(warnings) : ""));
+    if (std::string of_kind = kind_words(warnings, kind);
+        !of_kind.empty() && (with_other_values || kind != WarningKind::other_values))
+      words.push_back(std::move(of_kind));
   }
   return joined(words, ", ");
 }
+
+std::string doubtful_input(const RankingRow& row) { return kind_words(warnings_of(row), WarningKind::material); }
 
 std::string warning_lines(const std::vector<RankingRow>& rows) {
   constexpr std::size_t most_lines = 12;

@@ -20,6 +20,9 @@ bool spoils_plan(const Warning& warning);
 /// at other values, which the job's own values keep.
 std::string warning_kinds(const RankingRow& row, bool with_other_values = false);
 
+/// Returns "doubtful input (KEY)": a plan may use the hours once a person has confirmed it. Empty: there is none.
+std::string doubtful_input(const RankingRow& row);
+
 /// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: one warning of each kind,
 /// of the last row that has it, the number of jobs, and the files with the other warnings. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);

@@ -298,8 +298,10 @@ std::string bound_words(const RankingRow& row) {
       is_free ? "rubs" : "slips", rest);
 }
 
-std::string action_words(const RankingRow& row) {
-  if (!row.has_result()) return "";
+namespace {
+
+/// Returns action_words() without doubtful input.
+std::string plan_words(const RankingRow& row) {
   const double hours = row.headline_hours();
   if (!is_believable(row))
     return fmt::format("Do not plan with {}: {} (see the warnings).",
@@ -330,6 +332,19 @@ std::string action_words(const RankingRow& row) {
   return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours),
                                    calendar_text(row.headline_months())),
                        inspection, bound, others});
+}
+
+}  // namespace
+
+std::string action_words(const RankingRow& row) {
+  if (!row.has_result()) return "";
+  const std::string doubtful = doubtful_input(row);
+  if (is_believable(row) && !doubtful.empty())
+    return joined_words(
+        {fmt::format("Do not use this result before you have confirmed or corrected its {} (see the warnings).",
+                     doubtful),
+         plan_words(row)});
+  return plan_words(row);
 }
 
 std::string factor_words(const std::array<double, 3>& errors) {

@@ -819,6 +819,16 @@ TEST_CASE("ranking: of one job the first words say what to do, forces that canno
   rows[0].worst_joint = "joint_5";
   CHECK(ranking_table(rows).starts_with(
       "Plan a replacement after 1,300 h of motion (3.74 months). dresslife improve JOB searches for better clamps"));
+  rows[0].file = "weld.yaml";
+  CHECK_THAT(ranking_table(rows, 1000), Catch::Contains("dresslife improve weld.yaml searches") &&
+                                            Catch::Contains("dresslife reprogram weld.yaml for") &&
+                                            Catch::Contains("dresslife run weld.yaml -o held") &&
+                                            !Catch::Contains("JOB"));
+  rows[0].warnings = std::vector<Warning>{{WarningKind::material, "", "diameter_mm is 300"}};
+  CHECK(
+      ranking_table(rows, 1000)
+          .starts_with(
+              "Do not use this result before you have confirmed or corrected its doubtful input (diameter_mm) (see the warnings). Plan"));
   rows[0].warnings = std::vector<Warning>{{WarningKind::force, "", "cables pull"}};
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
   rows[0].planned_hours[0] = 55000, rows[0].robot_life_hours = 40000;
