@@ -84,7 +84,6 @@ constexpr double longest_box = 60;        // [m]: the floor of a hall
 constexpr double farthest = 20;           // [m] from the origin: the size of a cell
 constexpr double widest_spread = 20;  // factor of one standard deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
-constexpr double longest_hose = 20;     // [m]: the size of a cell; hoses on robots are 0.5 to 6 m long
 constexpr double shortest_in_mm = 300;  // a smaller number is in centimetres: no hose on a robot is 0.3 m long
 constexpr double farthest_clamp = 3;    // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
 constexpr double longest_tool = 0.5,

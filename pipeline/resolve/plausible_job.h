@@ -9,6 +9,9 @@
 
 namespace dresslife::pipeline {
 
+/// A longer routing.free_length_m is in another unit [m]: the size of a cell; hoses on robots are 0.5 to 6 m long.
+constexpr double longest_hose = 20;
+
 /// Checks of keys that decide the motion (JobPart::sim): gravity that is not downward or not that of the earth; a sample rate that
 /// misses the swing; limits, speeds and accelerations of the robot's axes in another unit or order; clamps in the air; and the
 /// steps of a motion without a program. Motion::left_out contains these warnings.

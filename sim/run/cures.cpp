@@ -546,6 +546,12 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
                   range.least, range.most, length);
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
   Remedy alone = other_length(motion, broken, wanted);
+  if (length > pipeline::longest_hose) {  // another unit, which has its own warning: nothing needs to be tried
+    const double meant = length / 1e3;
+    if (meant >= range.least && meant <= range.most) return {cause, other_length(motion, broken, meant)};
+    alone.words += fmt::format(" or less, {:.3f} or more, between these clamps", range.least);
+    return {cause, alone};
+  }
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
   const RestTrials trials(motion, broken);
   RemedySearch search(motion, checks, trials, broken.dresspack);
@@ -610,6 +616,10 @@ Remedy remedy_for(const CheckedMotion& motion, int dresspack, double time, const
   refused.dresspack = dresspack;
   const RestTrials trials(motion, refused);
   const std::vector<Check> none;
+  if (trials.length() > pipeline::longest_hose) {
+    refused.value = trials.length() - trials.longest();
+    return slack_cure(motion, none, refused).remedy;
+  }
   RemedySearch search(motion, none, trials, dresspack);
   Remedy remedy = search.remedy();
   if (remedy.empty()) remedy = search.elsewhere();

@@ -157,7 +157,7 @@ class QuickChecks {
           return other.words.find(" instead of ") != std::string::npos;
         }))
       found.notes.push_back(
-          "Correct the doubtful numbers of the program first: the limits that the dresspack passes may follow from them");
+          "Correct the doubtful numbers first: the limits that the dresspack passes may follow from them");
     return {pipeline::joined(std::move(found.others), cured), std::move(found.notes), std::move(found.run)};
   }
 

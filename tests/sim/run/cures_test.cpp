@@ -145,6 +145,15 @@ TEST_CASE("cures: a length that is too short or too long is cured by the length 
   }
 }
 
+TEST_CASE(
+    "cures: a length in millimetres is cured by the same number in metres, or by the lengths that suit the clamps") {
+  pipeline::Job job = swinging_job(1200);
+  CHECK_THAT(of_length_and_bend(job),
+             Catch::Contains("Remedy: routing.free_length_m: 1.200") && !Catch::Contains("other clamps"));
+  job.dresspacks[0].routing.free_length = 830;  // 0.83 m would be too short
+  CHECK_THAT(of_length_and_bend(job), Catch::Contains(" or less, 0.") && !Catch::Contains("other clamps"));
+}
+
 TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides by a longer hose") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
