@@ -448,8 +448,11 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
     const std::string layer = evaluation->name_of_layer(of.layer);
     const bool estimated = !of.straight && has_estimated_lay(job.dresspacks[evaluation->dresspack()].dresspack, layer);
-    const std::string most =
-        fmt::format("strain.friction_factor: {:g}, which counts with the most that friction could hold", most_held);
+    const pipeline::Remedy remedy{
+        {{"strain.friction_factor", fmt::format("{:g}", most_held)}},
+        std::string(", which counts with the most that friction could hold") +
+            (estimated ? "" : "; or the hand and the lay length that the cable's maker states"),
+        estimated ? "the lay length that the cable's maker states, in data_sheet; or " : ""};
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",
         fmt::format(
@@ -461,8 +464,7 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
             ? fmt::format("its lay length{} is not short beside the bend", estimated ? ", an ESTIMATE," : "")
             : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
               "equal",
-        estimated ? fmt::format("the lay length that the cable's maker states, in data_sheet; or {}", most)
-                  : most + "; or the hand and the lay length that the cable's maker states"));
+        remedy));
   }
   return all;
 }

@@ -19,7 +19,8 @@ struct CheckOptions {
 
 int check(const CheckOptions& options) {
   const std::filesystem::path job = named_file(options.job, "jobs");
-  const JobCheck check = check_of(job, options.sets);
+  JobCheck check = check_of(job, options.sets);
+  add_cable_warnings(check, job, options.sets);
   if (options.json) {
     print(Json{{"job", job.string()},
                {"refusal", check.refusal.empty() ? Json(std::nan("")) : Json(check.refusal)},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "pipeline/base/installation.h"
@@ -12,6 +13,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/line_key.h"
+#include "pipeline/job/parts_room.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/plausible_job.h"
@@ -48,14 +50,23 @@ bool is_shipped(const Where& where) {
   throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "correct the errors above");
 }
 
+/// Runs a stage that writes `output`. Returns whether it ran.
+bool runs(const char* program, const std::filesystem::path& input, const std::filesystem::path& output,
+          const std::vector<std::string>& sets) {
+  std::vector<std::string> arguments{input.string(), "-o", output.string(), "--quiet"};
+  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
+  return run_stage_program(program, arguments) == 0;
+}
+
+std::vector<Warning> warnings_in(const std::filesystem::path& file, const Format& format) {
+  return warnings_from(FileReader(file, format, FileReader::Scope::attributes).text_attribute("warnings"));
+}
+
 /// Returns the warnings of a prescribed deformation, which needs no simulation: dresslife-sim writes it in less than a second.
 std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   const PassingFile motion("motion.h5");
-  std::vector<std::string> arguments{file.string(), "-o", motion.path().string(), "--quiet"};
-  for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
-  if (run_stage_program("dresslife-sim", arguments) != 0) fail_motion(file);
-  return warnings_from(
-      FileReader(motion.path(), motion_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+  if (!runs("dresslife-sim", file, motion.path(), sets)) fail_motion(file);
+  return warnings_in(motion.path(), motion_format());
 }
 
 }  // namespace
@@ -84,6 +95,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   if (job.motion.is_prescribed()) {
     check.limits = "Not checked: strains and forces of the cables. A run may also warn of them.";
     check.warnings = located(joined(std::move(check.warnings), warnings_of_prescribed(file, sets)), document);
+    check.ran = true;
     return check;
   }
   check.limits =
@@ -96,8 +108,10 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     check.warnings =
         located(joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings"))), document);
     for (std::string& words : length_words(preview_file)) check.notes.push_back(std::move(words));
+    check.ran = check.refusal.empty();
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) {
+      if (note.starts_with("The short run of the checks")) check.ran = false;
       if (note.starts_with("The short run of the checks was left out"))
         check.limits = "The motion of the dresspack was not checked (see the note).";
       if (note.starts_with("ESTIMATE"))
@@ -113,6 +127,24 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
 
 JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return check_of(file, sets, PassingFile("preview.h5").path());
+}
+
+void add_cable_warnings(JobCheck& check, const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  Node document;
+  const Job job = read_job(file, sets, document);
+  if (!check.ran ||
+      !std::ranges::all_of(job.dresspacks, [](const MountedDresspack& of) { return is_single_cable(of.dresspack); }))
+    return;
+  std::vector<std::string> of_run = sets;
+  of_run.insert(of_run.end(), {"uncertainty.enabled=false", "simulation.most_repeats=2"});
+  const PassingFile motion("motion.h5"), strain("strain.h5");
+  if (!runs("dresslife-sim", file, motion.path(), of_run) ||
+      !runs("dresslife-strain", motion.path(), strain.path(), {}))
+    fail_motion(file);
+  const std::vector<Warning> before = warnings_in(motion.path(), motion_format());
+  std::vector<Warning> own = warnings_in(strain.path(), strain_format());
+  std::erase_if(own, [&](const Warning& of) { return std::ranges::find(before, of) != before.end(); });
+  check.warnings = joined(std::move(check.warnings), located(std::move(own), document));
 }
 
 void print_check(const JobCheck& check) {

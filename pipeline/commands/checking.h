@@ -17,6 +17,7 @@ struct JobCheck {
   std::vector<std::string>
       estimates;       ///< keys that each dresspack leaves out, with the assumed values, in the format of a run
   std::string limits;  ///< a sentence with the faults that only a run finds
+  bool ran = false;    ///< a short run followed the whole program
 };
 
 /// Checks a job. Errors: InputError with all faults that a reader of jobs finds.
@@ -24,6 +25,10 @@ JobCheck check_of(const std::filesystem::path& job, const std::vector<std::strin
 /// Checks a job and writes the output of dresslife-sim --preview to `preview_file`, except if the motion is prescribed.
 JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets,
                   const std::filesystem::path& preview_file);
+
+/// Adds the warnings of dresslife-strain for a dresspack that is a single cable, after two repeats with the job's own values. In a
+/// hose, loose cables would take minutes. Precondition: `check` is of this job.
+void add_cable_warnings(JobCheck& check, const std::filesystem::path& job, const std::vector<std::string>& sets);
 
 /// Prints the warnings, notes and the refusal.
 void print_check(const JobCheck& check);

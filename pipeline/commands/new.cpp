@@ -58,6 +58,7 @@ struct Choice {
   std::vector<std::string> notes = {};      ///< notes of dresslife check
   std::vector<std::string> doubts = {};     ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
+  bool ran = false;                     ///< JobCheck::ran
   std::vector<KeyValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
   std::vector<KeyValue> slacks = {};    ///< slacks that the job sets in its dresspack
   bool remedies_tried = false;          ///< the remedies were tried, and leave as many faults
@@ -163,6 +164,7 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   // a full disk or a killed stage is no fault of the routing, so it is not caught
   const JobCheck check = check_of(file.path(), {});
   choice.refused = !check.refusal.empty();
+  choice.ran = check.ran;
   choice.estimates = check.estimates;
   choice.notes.clear();
   std::ranges::copy_if(check.notes, std::back_inserter(choice.notes),
@@ -403,6 +405,10 @@ int make(NewOptions options) {
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
+  JobCheck of_cables;
+  of_cables.ran = choice.ran && !draft.exercise;
+  if (of_cables.ran) add_cable_warnings(of_cables, options.job, {});
+  print_check(of_cables);
   for (const std::string& note : choice.notes) print(shown(paragraph(note)));
   for (const std::string& estimate : choice.estimates) print(shown(paragraph(estimate)));
   if (draft.tool_space) print(shown(paragraph(tool_space_words(draft))));

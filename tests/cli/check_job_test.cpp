@@ -49,6 +49,15 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(entries == 4);  // job, poses, .out, .err: a check leaves no files
 }
 
+TEST_CASE("check: a single cable is warned of friction that gathers over too great a length, as in a run") {
+  Scratch scratch;
+  const std::string job = "'" + std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/bending_cable.yaml'";
+  CHECK_THAT(unwrapped(run(scratch, "dresslife", "check " + job).out),
+             Catch::Contains("evens out over") && Catch::Contains("strain.friction_factor: 2.5"));
+  CHECK_THAT(unwrapped(run(scratch, "dresslife", "check " + job + " --set strain.friction_factor=2.5").out),
+             !Catch::Contains("evens out over"));
+}
+
 TEST_CASE("check: a rig that bends a cable tighter than allowed is warned of without a run") {
   const fs::path rig = fs::path(DRESSLIFE_SOURCE_DIR) / "config/rigs/two_pulley.yaml";
   const auto warned = [&](const std::string& limit) {
