@@ -145,12 +145,13 @@ class QuickChecks {
   QuickWarnings warnings(const std::function<pipeline::Remedy()>& other_places) {
     QuickFindings found = findings();
     const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get(), other_places};
-    std::vector<Check> said;  // a bend that exists at rest is not reported a second time for the motion
-    for (const Check& check : found.checks)
-      if (check.name != check_name::bend_radius || std::ranges::none_of(found.checks, [&](const Check& other) {
+    // A bend that exists at rest is not reported a second time for the motion. Remedies consider both.
+    std::vector<Check> said = found.checks;
+    for (Check& check : said)
+      if (check.name == check_name::bend_radius && std::ranges::any_of(said, [&](const Check& other) {
             return other.name == check_name::bend_radius_at_rest && other.warning && other.dresspack == check.dresspack;
           }))
-        said.push_back(check);
+        check.warning = false;
     std::vector<pipeline::Warning> cured = check_warnings(motion, said);
     if (found.run.taut_at) cured.push_back(taut_warning(motion, found.run));
     if (!cured.empty() && std::ranges::any_of(found.others, [](const pipeline::Warning& other) {

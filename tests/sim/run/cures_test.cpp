@@ -154,6 +154,16 @@ TEST_CASE(
   CHECK_THAT(of_length_and_bend(job), Catch::Contains(" or less, 0.") && !Catch::Contains("other clamps"));
 }
 
+TEST_CASE("cures: a limit that is named for a bend at rest is also kept in motion") {
+  pipeline::Job job = swinging_job(0.97);
+  job.robot.joints[0].speed = job.robot.joints[0].acceleration = 60;  // the hose swings outward
+  job.dresspacks[0].dresspack.least_bend_radius = 30;
+  const std::string words = of_length_and_bend(job);
+  REQUIRE_THAT(words, Catch::Contains("at rest"));
+  job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
+  CHECK(of_length_and_bend(job) == "");
+}
+
 TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides by a longer hose") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
