@@ -140,7 +140,10 @@ std::string no_other_words(const CheckedMotion& motion, const std::string& limit
       "other clamps {}: with these two clamps{} no length and no direction that was tried{} keeps the limit{}",
       by_route,
       motion.other_places ? fmt::format(", also if they are moved by up to {:.0f} mm,", 1e3 * same_place) : "",
-      motion.work > most_work ? " in the time of a check" : "", limit);
+      motion.work > most_work ? " in the time of a check" : "",
+      limit + (motion.other_places || motion.own_stiffness != 1
+                   ? ""
+                   : fmt::format(" (`dresslife check` also moves them by up to {:.0f} mm)", 1e3 * same_place)));
 }
 
 using Kinds = std::vector<WarningKind>;

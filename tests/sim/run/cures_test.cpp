@@ -240,7 +240,8 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
       Catch::Contains("with these two clamps no length and no direction that was tried") &&
           Catch::Contains(
               "Remedy: other clamps (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others)") &&
-          Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
+          Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm") &&
+          Catch::Contains("(`dresslife check` also moves them by up to 100 mm)"));
   CHECK_THAT(words, !Catch::Contains("temperature"));
   job.cell.temperature = 60;
   CHECK_THAT(
