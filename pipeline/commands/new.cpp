@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "pipeline/advise/improve/draft.h"
@@ -63,8 +64,10 @@ struct Choice {
   std::vector<KeyValue> slacks = {};    ///< slacks that the job sets in its dresspack
   bool remedies_tried = false;          ///< the remedies were tried, and leave as many faults
 
+  std::size_t spoiling = 0;  ///< faults that spoil a plan, as those with other values do not
+
   /// The fewer, the better.
-  std::pair<bool, std::size_t> badness() const { return {refused, faults.size()}; }
+  std::tuple<bool, std::size_t, std::size_t> badness() const { return {refused, spoiling, faults.size()}; }
 };
 
 /// Returns the routing of a shipped job with this robot and one dresspack; of several jobs the one with this dresspack.
@@ -149,6 +152,7 @@ bool is_of_installation(const KeyValue& of) {
 /// Sets the results of dresslife check for the draft with this routing, with places in the user's files. motion: YAML; empty: the
 /// draft's own motion.
 void judge(const Draft& draft, const std::string& motion, Choice& choice) {
+  choice.spoiling = 0;
   choice.faults.clear(), choice.doubts.clear(), choice.estimates.clear(), choice.remedies.clear();
   const PassingFile file("job.yaml");
   Node job = routed(draft, to_yaml(choice.routing), motion, 1, file.path().parent_path());
@@ -174,6 +178,7 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
                             warning.kind != WarningKind::material && warning.kind != WarningKind::overlap;
     (of_routing ? choice.faults : choice.doubts).push_back(without_place(warning.line(), file.path()));
+    choice.spoiling += of_routing && spoils_plan(warning.kind);
     if (of_routing) std::ranges::copy_if(warning.remedy, std::back_inserter(choice.remedies), is_of_installation);
   }
 }

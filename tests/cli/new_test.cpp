@@ -44,6 +44,16 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   CHECK(!fs::exists(scratch / "job.yaml"));
 }
 
+TEST_CASE("new: a routing that exceeds a limit with other values only is better than one that does with its own") {
+  Scratch scratch;
+  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program '" DRESSLIFE_SOURCE_DIR
+                                     "/config/programs/pick_and_place.src' --dresspack control_cable job.yaml");
+  INFO(made.out);
+  REQUIRE(made.status == 0);
+  CHECK(has(unwrapped(made.out), "warning: with 0.4 times the stiffness of the dresspack"));
+  CHECK(!has(made.out, "warning: smallest bend radius"));
+}
+
 TEST_CASE("new: the clamps of a job of the catalogue with this robot, if check has no warning with them") {
   Scratch scratch;
   write_short_program(scratch);
