@@ -114,7 +114,7 @@ const Row rows[] = {
      Answer::refused, "nod.src:", "the program nod.src is one of KUKA, and the robot is Fanuc",
      "robot: the one for which the program was written"},
     // The program
-    {"nod.src", "CP=0.25", "CP=5", Answer::warned, "nod.src:6:5", "the tool's speed is 5 m/s (limit 3 or less)",
+    {"nod.src", "CP=0.25", "CP=5", Answer::warned, "nod.src:6:5", "the tool's speed is 5 m/s (limit 3 m/s or less)",
      "0.5 m/s if the decimal point slipped"},
     {"nod.src", "CP=0.25", "CP=250", Answer::warned, "nod.src:6:5", "the tool's speed is 250 m/s",
      "0.25 m/s if that was mm/s"},
