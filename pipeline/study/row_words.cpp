@@ -63,9 +63,11 @@ std::string cause_words(const RankingRow& row) {
 /// changes its sign with the motion (config/defaults.md).
 std::string lay_words(const RankingRow& row) {
   if (row.estimates.find("lay_length_mm") == std::string::npos) return "";
-  return "Not in the range: the lay lengths that data sheets leave out (ESTIMATE), which are 0.67 to 1.33 times as long in other cables. In three "
-         "tests of one cable this changed the 10 % value by factors of 0.42 to 2.1. For this job compare: dresslife run JOB -o lay "
-         "--set dresspack.estimated_lay_factor=0.67 (and 1.33).";
+  return fmt::format(
+      "Not in the range: the lay lengths that data sheets leave out (ESTIMATE), which are 0.67 to 1.33 times as long in other cables. "
+      "In three tests of one cable this changed the 10 % value by factors of 0.42 to 2.1. For this job compare: dresslife run {} -o lay "
+      "--set dresspack.estimated_lay_factor=0.67 (and 1.33).",
+      job_file(row));
 }
 
 std::string test_words(const RankingRow& row) {
