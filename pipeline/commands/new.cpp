@@ -16,6 +16,8 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/stiffness.h"

@@ -30,7 +30,8 @@ struct PlainPart {
   std::optional<double> damage_exponent;    ///< m of (F31); absent: usual_damage_exponent
   std::optional<double>
       least_bend_radius{};  ///< of a hose's axis, from its maker [m]; absent: see pipeline/cable/kink.h
-  std::optional<double> pressure, most_pressure;  ///< of a hose: in operation, and allowed by its maker at 20 C [Pa]
+  std::optional<double> pressure{},
+      most_pressure{};          ///< of a hose: in operation, and allowed by its maker at 20 C [Pa]
   double stiffness_factor = 1;  ///< of its polymer at the cell's temperature (pipeline/cable/warmth.h)
   Where where{};
 };

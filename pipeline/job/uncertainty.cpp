@@ -139,8 +139,9 @@ double other_stiffness(const Uncertainty& uncertainty) {
 
 std::vector<std::size_t> sampling_order() {
   std::vector<std::size_t> order = indices_of(uncertain_count);
-  std::ranges::stable_partition(
-      order, [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
+  // clang 14 does not compile std::ranges::stable_partition
+  std::stable_partition(order.begin(), order.end(),
+                        [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
   return order;
 }
 

@@ -391,7 +391,7 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
 // ---- errors of percentiles --------------------------------------------------------------------------------
 
 constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack),
-                      of_stiffness = index_of(Uncertain::hose_stiffness), rest_parameter = index_of(Uncertain::rest);
+                      of_stiffness = index_of(Uncertain::hose_stiffness);
 
 /// Returns the response without the points for which `drops` returns true.
 template <class Drops>

@@ -9,8 +9,7 @@ namespace dresslife::strain {
 namespace {
 
 constexpr int feeding_rounds = 100;  // 1 % of slack in 2 m grows by 0.2 mm in each round
-constexpr int most_rounds = 200;     // then at most so many rounds until all cables rest: 8 s
-constexpr double settling = 0.04;    // of a round [s]; a fixed one, because another step can lead to another rest (W40)
+constexpr int most_rounds = 200;     // then at most so many rounds until all cables rest: 8 s at 25 Hz
 // Cables that do not come to rest at a sample, because they snap far, get the time of so many samples in which the hose stands still.
 // Eight suffice in all of 24 cases with bends and twists of up to 8 1/m (rms) from sample to sample (strain/measurements.md).
 constexpr int most_pauses = 8;
@@ -177,7 +176,7 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
   for (LooseCables* const of : all) {
     assert(of->settings_ == all.front()->settings_ && of->started_ == all.front()->started_);
     if (of != all.front()) of->hose_ = first;
-    if (!of->started_) of->settle();
+    if (!of->started_) of->settle(step);
   }
   relax(all, step, seen);
   for (LooseCables* of : all) {
@@ -188,13 +187,13 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
 
 /// Moves the cables from their places to their rests at the first sample. A cable with excess length has many rests. The one
 /// found is that of an excess length fed in step by step. A wound ring starts with all of it.
-void LooseCables::settle() {
+void LooseCables::settle(double step) {
   double before = without_limit;
   for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds); ++round) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     feed_in(share);
     LooseCables* const alone = this;
-    relax({&alone, 1}, settling, true);
+    relax({&alone, 1}, step, true);
     started_ = false;  // no velocity is carried over from round to round
     double sum = 0;
     for (const CableState& state : states_) sum += std::abs(state.strain);

@@ -104,7 +104,7 @@ class LooseCables {
   double mesh_error() const;
 
  private:
-  void settle();
+  void settle(double step);
   static void relax(std::span<LooseCables* const> all, double step, bool seen);
   void begin(double step);
   void end(double step, int most, bool seen);

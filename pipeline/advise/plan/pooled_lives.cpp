@@ -14,7 +14,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t pooled = 8192;  // lives: the error of 1 - S = 1 % is 11 %
+constexpr std::size_t lives_of_pool = 8192;  // lives: the error of 1 - S = 1 % is 11 %
 
 std::span<const float> lives_in(const LifeTable& table, std::size_t world) {
   return {table.hours.data() + world * table.draws, table.draws};
@@ -63,7 +63,7 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
   }
   if (!table.mean_ln.empty()) mean_ = table.mean_ln;
   order_ = smallest_first(table.worlds, [&](std::size_t w) { return mean_[w]; });
-  const std::size_t in_pool = std::clamp<std::size_t>(pooled / table.draws, 1, table.worlds),
+  const std::size_t in_pool = std::clamp<std::size_t>(lives_of_pool / table.draws, 1, table.worlds),
                     pools = table.worlds / in_pool;
   distance_.resize(pools);
   for (std::size_t p = 0; p <= pools; ++p) begin_.push_back(table.worlds * p / pools);
