@@ -191,6 +191,7 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
+  if (const Node* const factor = entry.find(lay_factor); factor && base.is_map()) base[lay_factor] = *factor;
   resolve(base, folder, job, depth + 1);
   Node over = entry;
   std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
@@ -417,6 +418,24 @@ void apply_lines(Node& job) {
   for (const Entry& line : lines) set_value(job, line.key, line.value, line.where);
 }
 
+namespace {
+
+/// Prepares a dresspack for a factor of its estimated lays, which must be known before `cable` is resolved.
+void expect_lay_factor(Node& dresspack, const Where& where) {
+  if (dresspack.is_scalar()) {
+    Node named;
+    named.where = dresspack.where;
+    named["from"] = dresspack;
+    dresspack = std::move(named);
+  } else if (const Node* const estimates = dresspack.find("estimates");
+             estimates && estimates->text.find("lay_length_mm") != std::string::npos) {
+    throw InputError(where, "comes too late: another key of the dresspack was set before, so its lays are known",
+                     "write estimated_lay_factor in the dresspack, beside from or cable");
+  }
+}
+
+}  // namespace
+
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
   apply_lines(job);
   std::vector<Node*> nodes{&job};
@@ -424,10 +443,12 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const std::size_t here = begin;
     const std::string word = next_word(path, begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
-    // A catalogue entry is resolved as soon as a path leads into it. A cable's data sheets are expanded then, with their factor.
-    const bool before = word == "from" || word == "cable" || (word == lay_factor && !nodes.front()->is_scalar());
-    if (here > 0 && !before)
-      if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*nodes.front(), folder, job.where);
+    // A catalogue entry is resolved as soon as a path leads into it. A cable's data sheets are expanded then.
+    const char* const folder = here > 0 ? shelf_of(path.substr(0, here - 1)) : nullptr;
+    if (folder && word == lay_factor)
+      expect_lay_factor(*nodes.front(), where);
+    else if (folder && word != "from" && word != "cable")
+      resolve(*nodes.front(), folder, job.where);
     std::vector<Node*> next;
     for (Node* const node : nodes) step_into(*node, word, where, path, next);
     nodes = std::move(next);

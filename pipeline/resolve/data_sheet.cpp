@@ -881,7 +881,8 @@ void expand_all(Node& dresspack, const std::string& path, Problems& problems, Le
 
 void expand_data_sheets(Node& dresspack, const std::string& path, Problems& problems) {
   LeftOut left_out;
-  if (const Node* const factor = dresspack.is_map() ? dresspack.find("estimated_lay_factor") : nullptr)
+  const Node* const factor = dresspack.is_map() ? dresspack.find("estimated_lay_factor") : nullptr;
+  if (factor)
     if (const double value = std::strtod(factor->text.c_str(), nullptr);
         value >= least_lay_factor && value <= most_lay_factor)
       left_out.lay_factor = value;  // the dresspack's keys refuse others
@@ -890,6 +891,13 @@ void expand_data_sheets(Node& dresspack, const std::string& path, Problems& prob
   if (source && source->is_scalar() && !left_out.by_rules.empty())
     source->text +=
         fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(left_out.by_rules, "; "));
+  const Node* const known = dresspack.is_map() ? dresspack.find("estimates") : nullptr;
+  const std::string estimated = fmt::format("{}{}", fmt::join(left_out.keys, "; "), known ? known->text : "");
+  if (factor && estimated.find("lay_length_mm") == std::string::npos)
+    problems.attempt(path + ".estimated_lay_factor", factor->where, [&] {
+      throw InputError(factor->where, "has no effect: no data sheet of the dresspack leaves out a lay length",
+                       "leave out estimated_lay_factor");
+    });
   if (left_out.keys.empty()) return;
   const Where where = dresspack.where;
   Node& estimates = dresspack["estimates"];

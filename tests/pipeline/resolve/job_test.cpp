@@ -151,6 +151,19 @@ TEST_CASE("job: a cable alone on a robot has its mass, stiffness and damping by 
   CHECK_THAT(job_of_text(text, {set}).dresspacks[0].dresspack.estimates, Catch::Contains("lay_length_mm"));
   CHECK_THAT(message_of([&] { job_of_text(text, {"dresspack.estimated_lay_factor=67"}); }),
              Catch::Contains("estimated_lay_factor is 67 (must be 0.5 .. 2)"));
+  // The factor reaches a cable of a named dresspack, too. Where it cannot, it is refused.
+  const Scratch scratch;
+  scratch.write("lead.yaml", text.substr(text.find("{name: lead")));
+  const std::string before = text.substr(0, text.find("dresspack:")), file = (scratch / "lead.yaml").string();
+  CHECK(lay(job_of_text(before + "dresspack: " + file + "\n", {set})) == lay(job_of_text(text, {set})));
+  CHECK(lay(job_of_text(before + "dresspack: {from: " + file + ", estimated_lay_factor: 0.67}\n")) ==
+        lay(job_of_text(text, {set})));
+  CHECK_THAT(message_of([&] {
+               job_of_text(text, {"dresspack.least_bend_radius_mm=50", set});
+             }),
+             Catch::Contains("comes too late: another key of the dresspack was set before"));
+  CHECK_THAT(message_of([&] { job_of_text(before + "dresspack: spot_welding\n", {set}); }),
+             Catch::Contains("has no effect: no data sheet of the dresspack leaves out a lay length"));
   std::string given = text;
   given.insert(given.find(", outer diameter"), ", lay length 60 mm");
   CHECK(lay(job_of_text(given, {set})) == Approx(lay(job_of_text(given))));
