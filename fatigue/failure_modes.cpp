@@ -195,7 +195,9 @@ Percentiles near_first_wire(Percentiles lives, double first_wire) {
   const auto logs = logs_of(lives);
   const double excess = std::max(0.0, logs[1] - (std::log10(first_wire) + most_after_first_wire));
   if (excess > 0)
-    for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::pow(10, logs[i] - excess);
+    for (std::size_t i = 0; i < lives.size(); ++i)
+      lives[i] = std::max(std::pow(10, logs[i] - excess),
+                          std::min(lives[i], first_wire / std::pow(10, most_after_first_wire)));
   return lives;
 }
 

@@ -58,7 +58,8 @@ struct ModeInputs {
 /// medians of the parameters, where hardly any wire is damaged, and for a large share of wires, whose lives without load sharing
 /// mean nothing. W(z) is known for the worst wire only, and is added to the distance.
 constexpr double most_after_first_wire = 1;
-/// Returns the lives with their median at most that far above first_wire, the median life of the worst wire [repeats].
+/// Returns the lives with their median at most that far above first_wire, the median life of the worst wire [repeats]. No life becomes
+/// shorter than that far below it.
 Percentiles near_first_wire(Percentiles lives, double first_wire);
 
 /// Returns what is known of the uncertain parameters: the prior, or the posterior of the job's calibration. z counts from the job's

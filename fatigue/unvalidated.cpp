@@ -309,7 +309,8 @@ void find_abrasion(Search& found) {
     found.put_worn_place(mode, d, worn);
     std::vector<double> own = found.own_lives(mode, {&worn.repeats, 1}, worn.log10_spread);
     mode.visible_from = visible_from(*material, worn, job.inspection);
-    if (job.inspection.interval_weeks > 0) put_inspection(mode, own, found.lives, found.repeat(), job);
+    if (job.inspection.interval_weeks > 0)
+      put_inspection(mode, own, job.dresspacks.size() > 1 ? found.never() : found.lives, found.repeat(), job);
     found.put_lives(mode, std::move(own));
   }
 }
@@ -323,13 +324,17 @@ void find_jackets(Search& found) {
   const auto names = strain.read<std::string>("/cable/name");
   const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"),
              component = strain.read<std::int32_t>("/cable/component");
-  const std::size_t rests = std::max<std::size_t>(1, found.starts.size());
-  const auto patches = patches_of_jackets(strain, rests, names.size(), found.time);
+  auto patches = patches_of_jackets(strain, std::max<std::size_t>(1, found.starts.size()), names.size(), found.time);
+  // With a known rest, and in older files, only the job's own rest counts.
+  if (!strain.has("/jacket/rest") || !job.uncertainty.enabled ||
+      pipeline::is_known(job.uncertainty, pipeline::Uncertain::rest))
+    patches.resize(1);
+  const std::size_t rests = patches.size();
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const pipeline::Dresspack& mounted = job.dresspacks[d].dresspack;
     if (!is_hose(mounted)) continue;
     std::optional<std::size_t> first;
-    Abrasion worst;                                                               // at the job's own rest
+    Abrasion worst;                                                               // of all rests that count
     std::vector<double> repeats(rests, std::numeric_limits<double>::infinity());  // (rest) of the first worn jacket
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto part = static_cast<std::size_t>(component[k]);
@@ -340,11 +345,10 @@ void find_jackets(Search& found) {
       for (std::size_t rest = 0; rest < rests; ++rest) {
         const Abrasion worn = abrasion(*jacket, patches[rest][k]);
         repeats[rest] = std::min(repeats[rest], worn.repeats);
-        if (rest == 0 && (!first || worn.repeats < worst.repeats)) first = k, worst = worn;
+        if (!first || worn.repeats < worst.repeats) first = k, worst = worn;
       }
     }
     if (!first) continue;
-    if (!strain.has("/jacket/rest") || !job.uncertainty.enabled) repeats.resize(1);
     UnvalidatedMode& mode = found.add(UnvalidatedMode::jacket, d);
     if (std::isfinite(worst.repeats)) mode.place = cable_in_words(job, names[*first]), mode.time = worst.time;
     found.put_worn_place(mode, d, worst);

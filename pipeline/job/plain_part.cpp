@@ -27,7 +27,7 @@ void describe(Fields& f, PlainPart& part) {
   f.maybe_number(
       "most_pressure_bar", part.most_pressure, above(0),
       "The working pressure that the maker of a hose allows at 20 C. Above it pressure_bar causes a warning. In a cell above 20 C "
-      "the limit decreases by 1.75 % per kelvin.");
+      "the limit decreases by 1.75 % of itself per kelvin.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
