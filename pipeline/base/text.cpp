@@ -49,6 +49,12 @@ std::vector<std::string_view> words_in(std::string_view text, std::string_view b
   return words;
 }
 
+std::string shell_word(std::string_view text) {
+  std::string word = "'";
+  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return word + "'";
+}
+
 std::vector<std::string> parts_between(std::string_view text, std::string_view separator) {
   std::vector<std::string> parts;
   for (std::size_t at = 0; at <= text.size();) {

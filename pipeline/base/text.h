@@ -21,6 +21,9 @@ std::string_view trimmed(std::string_view text);
 /// Returns the words of a text that one or more blanks separate. They point into the text.
 std::vector<std::string_view> words_in(std::string_view text, std::string_view blanks = " \t\r\n");
 
+/// Returns any text quoted as one word of a shell.
+std::string shell_word(std::string_view text);
+
 /// Returns the parts of a text between separators; some may be empty.
 std::vector<std::string> parts_between(std::string_view text, std::string_view separator);
 

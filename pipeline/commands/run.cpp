@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <memory>
 #include <set>
 #include <sstream>
 
 #include "pipeline/base/screen.h"
+#include "pipeline/base/text.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
@@ -75,11 +77,21 @@ struct RunArguments : RunOptions {
   bool dry_run = false;
 };
 
-/// Adds its file, and file and line of the warnings about settings, to a job that is no study.
-void locate(std::vector<RankingRow>& rows, const fs::path& file) {
+/// Returns the text as a word of a shell, in quotes only if it needs them.
+std::string typed(const std::string& text) {
+  const bool plain = std::ranges::all_of(text, [](unsigned char letter) {
+    return std::isalnum(letter) ||
+           std::string_view("_./=+-,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
+  });
+  return plain ? text : shell_word(text);
+}
+
+/// Adds its file with the sets in force, and file and line of the warnings about settings, to a job that is no study.
+void locate(std::vector<RankingRow>& rows, const fs::path& file, const std::vector<std::string>& sets) {
   const Node document = read_document(file);
   if (rows.size() != 1 || document.find("base")) return;
-  rows.front().file = file.string();
+  rows.front().file = typed(file.string());
+  for (const std::string& set : sets) rows.front().file += " --set " + typed(set);
   if (rows.front().warnings) rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 
@@ -132,7 +144,7 @@ int run(const RunArguments& options) {
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));
-  locate(rows, request.file);
+  locate(rows, request.file, options.sets);
   print(options.json ? json_of(rows).text + "\n"
                      : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows, screen_columns()),
                                          (places.folder / "report.html").string())));

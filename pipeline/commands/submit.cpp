@@ -9,6 +9,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/job/cluster.h"
@@ -25,13 +26,6 @@ struct SubmitOptions : StudyOptions {
   std::optional<int> tasks;
   bool only_write = false;
 };
-
-/// Returns any text quoted as one word of a shell.
-std::string shell_word(const std::string& text) {
-  std::string word = "'";
-  for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);
-  return word + "'";
-}
 
 /// Returns the batch script: the same `dresslife run` as on one machine, with a launcher. In an array of allocations each
 /// allocation runs its shard. An allocation that is started again continues.

@@ -14,6 +14,7 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/excess.h"
@@ -147,11 +148,12 @@ struct Seen {
 
 /// Returns whether the step's program writes speeds in m/s, as KRL and URScript do. The others, and the keys, write mm/s.
 bool in_metres(const MotionStep& step) {
-  return step.where.file.ends_with(".src") || step.where.file.ends_with(".script");
+  const std::string file = lower_case(step.where.file);
+  return file.ends_with(".src") || file.ends_with(".script") || file.ends_with(".urscript");
 }
 
 double fastest_tool_of(const MotionStep& step) {
-  return step.where.file.ends_with(".src") ? fastest_of_kuka : fastest_tool;
+  return lower_case(step.where.file).ends_with(".src") ? fastest_of_kuka : fastest_tool;
 }
 
 void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {

@@ -66,8 +66,8 @@ std::string lay_words(const RankingRow& row) {
   return fmt::format(
       "Not in the range: the lay lengths that data sheets leave out (ESTIMATE), which are 0.67 to 1.33 times as long in other cables. "
       "In three tests of one cable this changed the 10 % value by factors of 0.42 to 2.1. For this job compare: dresslife run {} -o lay "
-      "--set dresspack.estimated_lay_factor=0.67 (and 1.33).",
-      job_file(row));
+      "--set {}.estimated_lay_factor=0.67 (and 1.33).",
+      job_file(row), row.worst_dresspack.empty() ? "dresspack" : "dresspacks.NUMBER.dresspack");
 }
 
 std::string test_words(const RankingRow& row) {
@@ -325,7 +325,7 @@ std::string plan_words(const RankingRow& row) {
   if (std::isinf(hours))
     return joined_words(
         {inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
-         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound, others});
+         row.planned() ? "in more than 90 % of the samples no wire fails." : "no wire is damaged.", bound, others});
   if (outlives_robot(row, hours))
     return joined_words({inspection,
                          fmt::format("The {} last longer than the robot ({} h).",

@@ -141,7 +141,8 @@ std::string no_other_words(const CheckedMotion& motion, const std::string& limit
       by_route,
       motion.other_places ? fmt::format(", also if they are moved by up to {:.0f} mm,", 1e3 * same_place) : "",
       motion.work > most_work ? " in the time of a check" : "",
-      limit + (motion.other_places || motion.own_stiffness != 1
+      // A refused job has no moments; its check, too, leaves the clamps where they are.
+      limit + (motion.other_places || motion.own_stiffness != 1 || !motion.moment
                    ? ""
                    : fmt::format(" (`dresslife check` also moves them by up to {:.0f} mm)", 1e3 * same_place)));
 }
@@ -549,7 +550,8 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
                   range.least, range.most, length);
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
   Remedy alone = other_length(motion, broken, wanted);
-  if (length > pipeline::longest_hose) {  // another unit, which has its own warning: nothing needs to be tried
+  if (length > pipeline::longest_hose &&
+      !short_one) {  // another unit, which has its own warning: nothing needs to be tried
     const double meant = length / 1e3;
     if (meant >= range.least && meant <= range.most) return {cause, other_length(motion, broken, meant)};
     alone.words += fmt::format(" or less, {:.3f} or more, between these clamps", range.least);

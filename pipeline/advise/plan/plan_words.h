@@ -44,8 +44,7 @@ struct AgeLimit {
   double hours = 0;
 };
 /// Returns the dresspacks that reach such an age before their replacement or before the end of the plan, and whose wires live until
-/// then in 1 of 10 cases (usual_reach): one line per mode,
-/// dresspacks already above it first. Hours under earlier duties count by their wear (worn_hours()). limits: (name of the duty)
+/// then in at least 1 of 10 cases (usual_reach): one line per mode, dresspacks already above it first. Hours under earlier duties count by their wear (worn_hours()). limits: (name of the duty)
 /// its modes, also for earlier duties. week_hours: (name of the duty) hours per week if the fleet gives none. Empty: no dresspack.
 std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
                       const std::map<std::string, double>& week_hours);
