@@ -1325,8 +1325,10 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   job.uncertainty.enabled = true;
   const auto alone = jackets_of("one_rest.h5").first[0].hours;
   f.rests = {0, 1, 0, 1};
-  f.jackets.push_back({1, 0.15, 1e5, 60, 1});
-  const auto spread = jackets_of("two_rests.h5").first[0].hours;
+  f.jackets.push_back({1, 0.25, 1e5, 60, 1});
+  const auto two = jackets_of("two_rests.h5").first[0];
+  CHECK(two.position_from_tool == Approx(0.75));  // at the rest with the shortest life
+  const auto spread = two.hours;
   const auto decades = [](double longer, double shorter) { return std::log10(longer / shorter); };
   const double half = pipeline::normal_quantile(0.75),
                deviation = decades(alone[1], alone[0]) / pipeline::normal_quantile(0.9);
