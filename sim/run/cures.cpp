@@ -550,10 +550,10 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
                   range.least, range.most, length);
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
   Remedy alone = other_length(motion, broken, wanted);
-  if (length > pipeline::longest_hose &&
-      !short_one) {  // another unit, which has its own warning: nothing needs to be tried
-    const double meant = length / 1e3;
-    if (meant >= range.least && meant <= range.most) return {cause, other_length(motion, broken, meant)};
+  // Another unit has its own warning, so nothing is tried.
+  if (length > pipeline::longest_hose && !short_one) {
+    for (const double meant : {length / 1e2, length / 1e3})  // centimetres, millimetres
+      if (meant >= range.least && meant <= range.most) return {cause, other_length(motion, broken, meant)};
     alone.words += fmt::format(" or less, {:.3f} or more, between these clamps", range.least);
     return {cause, alone};
   }

@@ -617,7 +617,7 @@ const Doubtful doubtful[] = {
      "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)",
      "0.05 MPa times the part's width"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack, length too long",
-     "routing.free_length_m: 2.046"},
+     "routing.free_length_m: 2.035"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81",
                    "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, 0, -1]",
