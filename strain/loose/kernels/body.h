@@ -277,9 +277,9 @@ struct Lines::Elimination {
     for (int s = 0; s < sides; ++s) here[s] = next[s] = {Pack(0.0), Pack(0.0)};
   }
   inline void add(const Lines& lines, std::size_t i, const Touch& touch, const Pair (&right)[sides]) {
-    const LineBatch& of = lines.of;
-    const std::size_t last = of.nodes - 1, lanes = of.lanes;
-    const double h = of.spacing;
+    const LineBatch& batch = lines.of;
+    const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
+    const double h = batch.spacing;
     const bool at_clamp = i == 1 || i + 1 == last;
     const Pack own = at_clamp ? diagonal + tied2 : diagonal;
     const Pack dxx = own + Pack(h) * touch.xx + here_xx;
@@ -292,7 +292,7 @@ struct Lines::Elimination {
     const Pack exx = tie + xx, exy = xy, eyx = yx, eyy = tie + yy;
     const Pack f_xx = ixx * exx + ixy * eyx, f_xy = ixx * exy + ixy * eyy;
     const Pack f_yx = ixy * exx + iyy * eyx, f_yy = ixy * exy + iyy * eyy;
-    double* const to = of.factors + 7 * i * lanes + lines.first;
+    double* const to = batch.factors + 7 * i * lanes + lines.first;
     const Pack values[] = {ixx, ixy, iyy, f_xx, f_xy, f_yx, f_yy};
     for (std::size_t v = 0; v < 7; ++v) store(values[v], to + v * lanes);
     here_xx = next_xx - exx * f_xx - eyx * f_yx;
@@ -301,7 +301,7 @@ struct Lines::Elimination {
     const Pack far = -(tied2 * tied2);
     next_xx = far * ixx, next_xy = far * ixy, next_yy = far * iyy;
     xx = -(tied2 * f_xx), xy = -(tied2 * f_yx), yx = -(tied2 * f_xy), yy = -(tied2 * f_yy);
-    double* const solution[sides] = {of.solved, of.soft};
+    double* const solution[sides] = {batch.solved, batch.soft};
     Pair y[sides], x[sides];
     for (int s = 0; s < sides; ++s) {
       y[s] = right[s] - here[s];
