@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -841,8 +842,9 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_layers(c);
   LifeScatter lives = scatter.get();
   const pipeline::FirstFailures first = first_failures_of(c, modes, conductors, places, lives, glued, free);
-  lives.first_place.lives = near_first_wire(lives.first_place.lives,
-                                            c.worst == no_site ? infinity : life_in_repeats(c.damage.damage[c.worst]));
+  lives.first_place.lives =
+      near_first_wire(lives.first_place.lives, c.worst == no_site ? std::numeric_limits<double>::infinity()
+                                                                  : life_in_repeats(c.damage.damage[c.worst]));
   const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
   write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
   const auto most = std::ranges::max_element(first.first);
