@@ -1045,8 +1045,8 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   const auto [far, far_by_scatter] = ahead(0.002f);
   CHECK(far == Approx(1).margin(digits));
   CHECK(far_by_scatter == Approx(1).margin(digits));  // the same limit: no answer has two lives
-  for (const double half : {1e3, 1e6, infinity}) {
-    const Percentiles lives = near_first_wire({500, half, infinity}, 200);
+  for (const double half : {1e3, 1e6, std::numeric_limits<double>::infinity()}) {
+    const Percentiles lives = near_first_wire({500, half, std::numeric_limits<double>::infinity()}, 200);
     CHECK(lives[1] == Approx(std::min(half, 2000.0)));
     CHECK(lives[0] == Approx(std::max(20.0, 500 * lives[1] / std::min(half, 1e25))));
   }
