@@ -22,8 +22,8 @@ struct Inspected {
   double unseen_share = 0;  ///< share of all samples that fail without being found
 };
 /// A dresspack is replaced when 1 of 10 has failed by the wires, earlier when its own wires fail, and with its robot at the latest.
-/// lives: (sample) log10 repeats; wires: the same by the validated modes of this dresspack, infinite if only the robot ends it; repeat: duration of one [s]; visible_from: v.
-/// Precondition: the interval is not 0.
+/// lives: (sample) log10 repeats; wires: the same by the validated modes of this dresspack, infinite if only the robot ends it;
+/// repeat: duration of one [s]; visible_from: v. Precondition: the interval is not 0.
 Inspected inspected(const std::vector<double>& lives, const std::vector<double>& wires, double repeat,
                     double visible_from, const pipeline::Inspection& inspection, const pipeline::Fatigue& fatigue);
 

@@ -440,7 +440,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   }
   text += comparison_words(trial, tolerance) + tolerance_words(trial.nudges, tolerance);
   RankingRow row = trial.rows[*trial.best];
-  row.file = job.string();
+  name_file(row, job);
   for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
   text = trial.proposals.candidates[*trial.best].changes + wrapped_lines(text, screen_columns());

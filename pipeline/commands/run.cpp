@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <set>
 #include <sstream>
 
 #include "pipeline/base/screen.h"
-#include "pipeline/base/text.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
@@ -21,6 +19,7 @@
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/row_warnings.h"
+#include "pipeline/study/row_words.h"
 #include "pipeline/study/shards.h"
 #include "pipeline/study/study_problems.h"
 
@@ -77,21 +76,11 @@ struct RunArguments : RunOptions {
   bool dry_run = false;
 };
 
-/// Returns the text as a word of a shell, in quotes only if it needs them.
-std::string typed(const std::string& text) {
-  const bool plain = std::ranges::all_of(text, [](unsigned char letter) {
-    return std::isalnum(letter) ||
-           std::string_view("_./=+-,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
-  });
-  return plain ? text : shell_word(text);
-}
-
 /// Adds its file with the sets in force, and file and line of the warnings about settings, to a job that is no study.
 void locate(std::vector<RankingRow>& rows, const fs::path& file, const std::vector<std::string>& sets) {
   const Node document = read_document(file);
   if (rows.size() != 1 || document.find("base")) return;
-  rows.front().file = typed(file.string());
-  for (const std::string& set : sets) rows.front().file += " --set " + typed(set);
+  name_file(rows.front(), file, sets);
   if (rows.front().warnings) rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 

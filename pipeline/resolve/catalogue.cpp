@@ -429,8 +429,10 @@ void expect_lay_factor(Node& dresspack, const Where& where) {
     dresspack = std::move(named);
   } else if (const Node* const estimates = dresspack.find("estimates");
              estimates && estimates->text.find("lay_length_mm") != std::string::npos) {
-    throw InputError(where, "comes too late: another key of the dresspack was set before, so its lays are known",
-                     "write estimated_lay_factor in the dresspack, beside from or cable");
+    throw InputError(
+        where,
+        "estimated_lay_factor comes too late: another key of the dresspack was set before, so its lays are known",
+        "write estimated_lay_factor in the dresspack, beside from or cable");
   }
 }
 

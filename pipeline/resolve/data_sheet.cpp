@@ -895,7 +895,8 @@ void expand_data_sheets(Node& dresspack, const std::string& path, Problems& prob
   const std::string estimated = fmt::format("{}{}", fmt::join(left_out.keys, "; "), known ? known->text : "");
   if (factor && estimated.find("lay_length_mm") == std::string::npos)
     problems.attempt(path + ".estimated_lay_factor", factor->where, [&] {
-      throw InputError(factor->where, "has no effect: no data sheet of the dresspack leaves out a lay length",
+      throw InputError(factor->where,
+                       "estimated_lay_factor has no effect: no data sheet of the dresspack leaves out a lay length",
                        "leave out estimated_lay_factor");
     });
   if (left_out.keys.empty()) return;

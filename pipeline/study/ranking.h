@@ -43,7 +43,7 @@ struct RelativeLife {
 struct RankingRow {
   std::string job;
   std::filesystem::path life_file;
-  std::string file{};     ///< the only job of a study, as the user named it; empty: not known
+  std::string file{};     ///< see name_file(); empty: not known
   std::string failure;    ///< empty: the job is done and the other members are valid
   bool stale = false;     ///< the job is not done; the other members describe its last result
   std::string changed;    ///< changes since that result, as text; empty: not known

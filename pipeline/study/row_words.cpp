@@ -12,6 +12,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/text.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/study/row_warnings.h"
 
@@ -397,6 +398,18 @@ std::string held_words(const RankingRow& row) {
       "{} is held (motion.hold_joint): the tool does not follow its program. This life shows what the axis costs. Compare it with the "
       "same job without hold_joint only, not with other jobs.",
       row.held_joint);
+}
+
+void name_file(RankingRow& row, const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  const auto typed = [](const std::string& text) {  // in quotes only if it needs them
+    const bool plain = std::ranges::all_of(text, [](unsigned char letter) {
+      return std::isalnum(letter) ||
+             std::string_view("_./=+-,:@%").find(static_cast<char>(letter)) != std::string_view::npos;
+    });
+    return plain ? text : shell_word(text);
+  };
+  row.file = typed(file.string());
+  for (const std::string& set : sets) row.file += " --set " + typed(set);
 }
 
 std::string job_file(const RankingRow& row) { return row.file.empty() ? "JOB" : row.file; }

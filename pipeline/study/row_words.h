@@ -17,13 +17,15 @@ bool is_believable(const RankingRow& row);
 /// row has no result.
 std::string action_words(const RankingRow& row);
 
-/// Returns the row's file for commands, or the word JOB if it is not known.
+/// Lets commands in the row's words name the job's file and the sets in force, as words of a shell.
+void name_file(RankingRow& row, const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+/// Returns this text, or the word JOB if it is not known.
 std::string job_file(const RankingRow& row);
 
 /// Returns the hours at which the dresspack is replaced: those of the headline, at most the robot's life. A mode without a
-/// validated law of which 1 of 10 fails later is no reason for an action.
+/// validated law needs no action if 1 of 10 fails by it later.
 double replacement_hours(const RankingRow& row);
-/// Returns the mode of which 1 of 10 fails first, if that happens before replacement_hours(). The headline does not include
+/// Returns the mode by which 1 of 10 fails first, if that happens before replacement_hours(). The headline does not include
 /// hours that no test validates, so a reader must also see this mode. A wall whose law
 /// contradicts a published test is not considered. Null: no such mode.
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row);

@@ -233,7 +233,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (!gain) return wrapped_lines(text + left_of(finals, finals.of.front()), screen_columns());
   if (const RankingRow* const found_row = finals.worst_row(best)) {
     RankingRow row = *found_row;
-    row.file = (places.job(row.job) / "job.yaml").string();
+    name_file(row, places.job(row.job) / "job.yaml");
     for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
       text += words + (words.empty() ? "" : "\n");
     text += left_at_other_values(row);
