@@ -30,10 +30,11 @@ inline double stiffness_at(double temperature) {
   return std::exp(-softening * (temperature - Cell::usual_temperature));
 }
 
-/// Returns the pressure that a polymer tube bears / that at 20 C, by the tables above. Below 20 C the fittings limit it.
+/// Returns the pressure that a polymer tube bears / that at 20 C, by the tables above. 1 up to the usual temperature of a cell:
+/// makers state their limits for 20 or 23 C, and at lower temperatures the fittings limit the pressure.
 inline double pressure_at(double temperature) {
   constexpr double of_makers = 20;  // [C]
-  return std::exp(-softening * std::max(0.0, temperature - of_makers));
+  return temperature <= Cell::usual_temperature ? 1 : std::exp(-softening * (temperature - of_makers));
 }
 
 /// Factor of a wear rate, and the standard deviation of its log10.

@@ -67,8 +67,9 @@ Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow
   auto object = objects.begin();
   for (const DutyResult& duty : duties)
     for (const DutyPart& part : duty.parts)
-      (object++)->add(
-          {{"do_not_plan", duty.doubtful}, {"warning_list", warning_list(*find_in(rows, &RankingRow::job, part.job))}});
+      (object++)->add({{"do_not_plan", duty.doubtful},
+                       {"confirm_first", duty.unconfirmed},
+                       {"warning_list", warning_list(*find_in(rows, &RankingRow::job, part.job))}});
   return objects;
 }
 

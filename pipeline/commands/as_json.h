@@ -24,7 +24,8 @@ Json json_of_csv(const std::string& csv);
 Json json_of(const std::vector<RankingRow>& rows);
 
 /// Returns the rows of duty_csv(), each with the warnings of its program as `warning_list`, and as `do_not_plan` the programs of its
-/// duty whose warnings make a plan unreliable (DutyResult::doubtful). rows: rows of the programs.
+/// duty whose warnings make a plan unreliable (DutyResult::doubtful), as `confirm_first` its doubtful input
+/// (DutyResult::unconfirmed). rows: rows of the programs.
 Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows);
 
 /// Returns a list with one object per window: its days, the dresspacks to replace in it, and the mean number of later ones.

@@ -68,25 +68,35 @@ std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
 
 constexpr std::size_t most_named = 3;  // duties or programs that are named; a plant may have hundreds
 
-/// Returns the duties whose programs have warnings that make a plan unreliable.
+/// Returns "one, two, three, and 4 more".
+std::string first_of(const std::vector<std::string>& all) {
+  std::vector<std::string> named(all.begin(),
+                                 all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_named)));
+  if (all.size() > most_named) named.push_back(fmt::format("and {} more", all.size() - most_named));
+  return joined(named, ", ");
+}
+
+/// Returns the duties whose programs have warnings that make a plan unreliable, then those with doubtful input.
 std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
-  std::vector<std::string> lines;
-  std::size_t more = 0;
-  for (const DutyResult& duty : duties) {
-    if (duty.doubtful.empty()) continue;
-    if (lines.size() == most_named) {
-      ++more;
-      continue;
-    }
-    std::vector<std::string> programs = duty.doubtful;
-    programs.resize(std::min(programs.size(), most_named));
-    if (duty.doubtful.size() > most_named)
-      programs.push_back(fmt::format("and {} more", duty.doubtful.size() - most_named));
-    lines.push_back(
-        fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, joined(programs, ", ")));
-  }
-  if (more > 0) lines.push_back(fmt::format("Do not plan with {} more duties that have such programs.\n", more));
-  return lines;
+  std::vector<std::string> unreliable, unconfirmed;
+  for (const DutyResult& duty : duties)
+    if (!duty.doubtful.empty())
+      unreliable.push_back(
+          fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, first_of(duty.doubtful)));
+    else if (!duty.unconfirmed.empty())
+      unconfirmed.push_back(
+          fmt::format("Before you use the plan of duty '{}', confirm or correct {} (see the warnings).\n", duty.name,
+                      first_of(duty.unconfirmed)));
+  const auto shorten = [](std::vector<std::string>& lines, const char* more) {
+    if (lines.size() <= most_named) return;
+    const std::size_t others = lines.size() - most_named;
+    lines.resize(most_named);
+    lines.push_back(fmt::format(fmt::runtime(more), others));
+  };
+  shorten(unreliable, "Do not plan with {} more duties that have such programs.\n");
+  shorten(unconfirmed, "Confirm or correct the doubtful input of {} more duties.\n");
+  unreliable.insert(unreliable.end(), unconfirmed.begin(), unconfirmed.end());
+  return unreliable;
 }
 
 /// Returns the doubts with the first warnings behind them, each once, for the page.

@@ -26,8 +26,8 @@ void describe(Fields& f, PlainPart& part) {
                  "The largest working pressure in a hose, above that of the air outside.");
   f.maybe_number(
       "most_pressure_bar", part.most_pressure, above(0),
-      "The working pressure that the maker of a hose allows at 20 C. Above it pressure_bar causes a warning. In a cell above 20 C "
-      "the limit decreases by 1.75 % of itself per kelvin.");
+      "The working pressure that the maker of a hose allows at 20 C. Above it pressure_bar causes a warning. In a cell above 23 C "
+      "the limit decreases by 1.75 % of itself per kelvin above 20 C.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {
@@ -43,6 +43,11 @@ void check_plain_part(const PlainPart& part, double radius, std::string_view nam
   if (part.kind != PlainKind::hose && (part.pressure || part.most_pressure))
     throw InputError(part.where, fmt::format("'{}' is a {} and has a pressure", name, word(part.kind)),
                      "set kind: hose, or leave out pressure_bar and most_pressure_bar");
+  if (part.pressure.has_value() != part.most_pressure.has_value())
+    throw InputError(part.where,
+                     fmt::format("'{}' has {}, but not {}", name, part.pressure ? "pressure_bar" : "most_pressure_bar",
+                                 part.pressure ? "most_pressure_bar" : "pressure_bar"),
+                     "give both, because one is compared with the other");
   if (part.least_bend_radius && *part.least_bend_radius < radius)
     throw InputError(part.where,
                      fmt::format("'{}' has least_bend_radius_mm {:.4g} (it is {:.4g} mm wide outside)", name,

@@ -1156,7 +1156,7 @@ void doubt_pressures(const Dresspack& dresspack, double temperature, std::vector
           WarningKind::material, part.plain->where.text(),
           fmt::format("the pressure_bar of {} is {:.3g} (limit {:.3g} at {:g} C by most_pressure_bar{})", part.name,
                       *part.plain->pressure / bar, limit / bar, temperature,
-                      temperature > 20
+                      temperature > Cell::usual_temperature
                           ? ", with 1.75 % less per kelvin above 20 C as SMC's tubes of polyamide 12; PVC has 3 %"
                           : ""),
           "a pressure in another unit, or a tube that is too weak",

@@ -137,9 +137,11 @@ duties:
     CHECK(number(cell(duty, "halves,other", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
   }
   CHECK(outcome.out.find("These hours begin now") != std::string::npos);
-  CHECK_THAT(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out,
-             Catch::Contains("\"duty\":\"alone\"") &&
-                 Catch::Contains("\"do_not_plan\":[\"one (bend radius, forces, calibration)\"],\"warning_list\":[{"));
+  CHECK_THAT(
+      run(scratch, "dresslife", "duty duties.yaml --json --quiet").out,
+      Catch::Contains("\"duty\":\"alone\"") &&
+          Catch::Contains(
+              "\"do_not_plan\":[\"one (bend radius, forces, calibration)\"],\"confirm_first\":[],\"warning_list\":[{"));
 }
 
 TEST_CASE(

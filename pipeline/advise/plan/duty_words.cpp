@@ -73,7 +73,10 @@ std::string shown_hours(double robot_life, double hours) {
   return hours > robot_life ? "over " + readable(robot_life) : life_text(hours);
 }
 
-std::string duty_action(const DutyResult& duty) {
+namespace {
+
+/// Returns duty_action() without doubtful input.
+std::string replacement_words(const DutyResult& duty) {
   const bool remains = duty.past_hours > 0;
   const double hours = remains ? duty.lives.remaining[0] : duty.lives.percentiles[0];
   const std::string when = remains ? fmt::format("in {} of operation from now on", hours_text(hours))
@@ -89,6 +92,16 @@ std::string duty_action(const DutyResult& duty) {
                        inspection(duty));
   return fmt::format("Plan a replacement {} ({} at {:g} h per week).{}", when,
                      calendar_text(months(hours, duty.hours_per_week)), duty.hours_per_week, inspection(duty));
+}
+
+}  // namespace
+
+std::string duty_action(const DutyResult& duty) {
+  const bool confirm = duty.doubtful.empty() && !duty.unconfirmed.empty();
+  return (confirm ? fmt::format("Do not use this result before you have confirmed or corrected {} (see the warnings). ",
+                                fmt::join(duty.unconfirmed, ", "))
+                  : "") +
+         replacement_words(duty);
 }
 
 std::string percentile_words(const DutyResult& duty) {

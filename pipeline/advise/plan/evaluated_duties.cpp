@@ -584,6 +584,8 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
       result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
       for (const Warning& warning : warnings_of(row))
         if (spoils_plan(warning)) result.warnings.push_back(row.job + ": " + warning.text());
+    } else if (const std::string input = doubtful_input(row); !input.empty()) {
+      result.unconfirmed.push_back(fmt::format("the {} of {}", input, row.job));
     }
   result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
   if (const Job* const job = programs.job(duty.programs.front())) result.inspection = job->inspection;

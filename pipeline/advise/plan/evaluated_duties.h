@@ -70,6 +70,8 @@ struct DutyResult {
   std::vector<std::string>
       warnings;  ///< "hard: smallest bend radius: ...": the warnings of these programs that make it unreliable
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that make a plan unreliable
+  /// "the doubtful input (least_bend_radius_mm) of hard": what a person has to confirm before the hours are used
+  std::vector<std::string> unconfirmed;
 };
 
 /// Returns the modes under a duty. rows: (part) rows of its programs. Wear and damage add up. Rates and exponents are the same

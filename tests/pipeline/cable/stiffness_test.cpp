@@ -530,6 +530,12 @@ TEST_CASE("stiffness: parts of the core add none, and what does not fit into it 
       with("{name: fibre, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: fibre, most_pressure_bar: 5}}"),
       Contains("is a fibre and has a pressure"));
   CHECK_THROWS_WITH(
+      with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, most_pressure_bar: 5}}"),
+      Contains("'hose' has most_pressure_bar, but not pressure_bar"));
+  CHECK_THROWS_WITH(
+      with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, pressure_bar: 5}}"),
+      Contains("'hose' has pressure_bar, but not most_pressure_bar"));
+  CHECK_THROWS_WITH(
       with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, least_bend_radius_mm: 3}}"),
       Contains("least_bend_radius_mm 3 (it is 8 mm wide outside)"));
   CHECK_THROWS_WITH(job_with({"dresspack.core_diameter_mm=20", "dresspack.core_parts=a hose",

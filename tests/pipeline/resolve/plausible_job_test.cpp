@@ -53,6 +53,8 @@ TEST_CASE("plausible jobs: a hose with more pressure than its maker allows at th
   CHECK(warnings_at(0, 20).empty());  // no limit
   CHECK(warnings_at(8, 20).empty());
   CHECK(warnings_at(8, 10).empty());
+  CHECK(warnings_at(8, 23).empty());  // makers state limits for 20 or 23 C
+  CHECK(warnings_at(8, 24).size() == 1);
   REQUIRE(warnings_at(7.9, 20).size() == 1);
   CHECK_THAT(warnings_at(7.9, 10)[0].words,
              Catch::StartsWith("the pressure_bar of water hose is 8 (limit 7.9 at 10 C by most_pressure_bar)"));

@@ -89,6 +89,11 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   duty.lives.percentiles = {9000, 20000, 30000};
   CHECK_THAT(duty_action(duty), Catch::EndsWith("at 80 h per week)."));
   CHECK(caution_words(duty).empty());
+  duty.unconfirmed = {"the doubtful input (least_bend_radius_mm) of one"};
+  CHECK_THAT(duty_action(duty),
+             Catch::StartsWith("Do not use this result before you have confirmed or corrected the doubtful input "
+                               "(least_bend_radius_mm) of one (see the warnings). Plan a replacement after 9,000 h"));
+  duty.unconfirmed.clear();
   duty.others = {{UnvalidatedMode::abrasion, "", "", 20000},
                  {UnvalidatedMode::rating, "", "power cable", 6000},
                  {UnvalidatedMode::wall, "upper", "", 7000},
