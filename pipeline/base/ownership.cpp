@@ -124,9 +124,10 @@ bool is_input(const fs::path& file) {
   return std::any_of(begin, end, [&](const auto& input) { return inode_of(input.second) == inode; });
 }
 
-void check_kind(const fs::path& file) {
+/// Returns whether a plain file has this name; false: none is seen.
+bool is_plain_file(const fs::path& file) {
   const FileKind kind = kind_of_name(file);
-  if (kind == FileKind::absent || kind == FileKind::file) return;
+  if (kind == FileKind::absent || kind == FileKind::file) return kind == FileKind::file;
   const char* what = kind == FileKind::folder ? "is a folder"
                      : kind == FileKind::link ? "is a link to another file"
                                               : "is a device or a pipe";
@@ -182,8 +183,7 @@ bool is_ours(const fs::path& file) {
 }
 
 void check_replaceable(const fs::path& file) {
-  check_kind(file);
-  if (is_input(file))
+  if (is_plain_file(file) && is_input(file))
     throw InputError({file.string()}, "is one of the files that are read", "name another place with -o");
   if (!policy().replaces_files_of_others && state_of(file).exists() && !is_ours(file))
     throw InputError({file.string()}, "is there already and was not written by dresslife, or was changed since",

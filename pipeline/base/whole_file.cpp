@@ -59,8 +59,9 @@ std::pair<int, fs::path> make_part(const fs::path& folder) {
 
 /// Returns whether a plain file of this name has the same bytes. Errors: DiskError.
 bool same_bytes(const WholeFile& one, const fs::path& path) {
-  const std::int64_t size = state_of(one.descriptor(), one.final_name()).size;
-  if (state_of(path).size != size) return false;
+  const FileState there = state_of(path);
+  const std::int64_t size = there.exists() ? state_of(one.descriptor(), one.final_name()).size : 0;
+  if (!there.exists() || there.size != size) return false;
   const PlainFile other(path);
   std::vector<char> a(read_block_bytes), b(read_block_bytes);
   for (std::int64_t at = 0; at < size; at += read_block_bytes) {
