@@ -22,7 +22,7 @@ int clean(const StudyOptions& options) {
   const fs::path folder = folder_of_results(request, options);
   const FolderLock lock(folder);
   check_source(folder, request.file);
-  const StudyState standing = standing_of(request);
+  const StudyState standing = expanded(request);
   std::uintmax_t freed = 0;
   std::set<std::string> jobs;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

@@ -99,17 +99,13 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   if (!begun) check_before_run(file, standing);
   const FolderLock lock(folder);
   claim_folder(folder, study);
-  if (begun) standing = standing_of(request);
-  if (standing.remembered && standing.all_done())
-    read_jobs(standing);
-  else if (standing.remembered)
-    standing = expanded(request);
+  if (begun) standing = expanded(request);
   if (begun) check_before_run(file, standing);
   for (const Warning& warning : mounting_warnings(file, standing.study, nullptr))
     write_stderr(shown(warning.paragraph()));
   if (begun) note_replaced(standing);
   if (!begun) look_again(standing);
-  make_rest(request, standing, options);
+  make_rest(standing, options);
   std::vector<RankingRow> rows = results_of(standing.study, standing.places, standing.states);
   for (const Warning& warning : mounting_warnings(file, standing.study, &rows))
     write_stderr(shown(warning.paragraph()));

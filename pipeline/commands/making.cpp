@@ -137,10 +137,10 @@ int make_first_of_same(const Study& study, const StudyPlaces& places, const RunO
 
 }  // namespace
 
-int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options) {
-  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
+int make_rest(StudyState& standing, const RunOptions& options) {
+  const auto& [study, places, states, digests] = standing;
   Progress progress(study.name, options.quiet);
-  if (!remembered) share_stages(study, places, standing.states);
+  share_stages(study, places, standing.states);
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
     remove_unkept(states[k], places.job(study.jobs[k].name));
@@ -148,14 +148,10 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
       progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words().line()));
   }
   int started = 0;
-  if (!remembered && count_left(study, states) > 1)
+  if (count_left(study, states) > 1)
     started = make_first_of_same(study, places, options, standing.states, digests, progress);
   const std::size_t left = count_left(study, states);
-  if (remembered)
-    renew_receipts(study, places, states);
-  else
-    write_build_graph(study, places, states, options.limits, options.launcher);
-  if (!remembered && places.shard.empty()) remember(request, standing);
+  write_build_graph(study, places, states, options.limits, options.launcher);
   return left == 0 ? started : started + build_rest(study, places, options, left, standing.states, digests, progress);
 }
 

@@ -14,7 +14,7 @@
 namespace dresslife::pipeline {
 
 /// Runs the stages that are not up to date and updates the states. Returns the number of started stages.
-int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options);
+int make_rest(StudyState& standing, const RunOptions& options);
 
 /// Runs the stages that are not up to date, of a study that has no file of its own. Returns its rows.
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options);

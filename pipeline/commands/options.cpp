@@ -166,7 +166,7 @@ StudyRequest request_of(const StudyOptions& options, bool quiet) {
 
 StudyState standing_study(const StudyRequest& request) {
   check_source(request.out / study_name(request.file), request.file);
-  StudyState standing = standing_of(request);
+  StudyState standing = expanded(request);
   report_changes(standing.study, standing.places, standing.states);
   return standing;
 }

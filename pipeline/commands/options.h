@@ -9,7 +9,7 @@
 #include "pipeline/base/days.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/stage/command_line.h"
-#include "pipeline/study/known_study.h"
+#include "pipeline/study/study_state.h"
 
 namespace dresslife::pipeline {
 
@@ -64,7 +64,7 @@ void check_sets(const std::filesystem::path& study, const std::vector<std::strin
 StudyRequest request_of(const StudyOptions& options, bool quiet = true);
 
 /// Returns the state of a study for commands that compute nothing, with the changes since its stale results. Errors: those of
-/// check_source() and standing_of().
+/// check_source() and expanded().
 StudyState standing_study(const StudyRequest& request);
 
 /// Returns the folder of a study's results. Errors: InputError when it does not exist.

@@ -27,9 +27,9 @@ int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   folder_of_results(request, options);  // refuses a study without any
   StudyState standing = standing_study(request);
-  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
+  const auto& [study, places, states, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
-  add_relative_lives(rated ? with_dresspacks(standing) : study, places, nullptr, rows);
+  add_relative_lives(study, places, nullptr, rows);
   print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows, screen_columns())));
   write_stderr(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::ranges::count_if(states, [](const JobState& state) {

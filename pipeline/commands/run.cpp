@@ -39,7 +39,7 @@ int run_shard(const RunOptions& options) {
   claim_folder(folder, request.file);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
-  const int executed = make_rest(request, standing, options);
+  const int executed = make_rest(standing, options);
   if (!options.quiet) write_stderr(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
@@ -119,17 +119,16 @@ int run(const RunArguments& options) {
   if (!begun) standing = expanded(request);  // a study that cannot be expanded creates no folder
   const FolderLock lock(folder);
   claim_folder(folder, request.file);
-  if (begun) standing = standing_of(request);
-  if (standing.remembered && !standing.all_done()) standing = expanded(request);
+  if (begun) standing = expanded(request);
   if (!begun) look_again(standing);
-  const int executed = make_rest(request, standing, options);
+  const int executed = make_rest(standing, options);
   report_changes(standing.study, standing.places, standing.states);
-  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
+  const auto& [study, places, states, digests] = standing;
   const bool any = std::ranges::any_of(study.jobs, [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
     write_stderr(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);
-  add_relative_lives(rated ? with_dresspacks(standing) : study, places, &options, rows);
+  add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));

@@ -72,7 +72,7 @@ int submit(const SubmitOptions& options) {
   const Cluster cluster = read_cluster(named_file(options.cluster, "clusters"));
   const StudyRequest request = request_of(options);
   check_source(request.out / study_name(request.file), request.file);
-  const StudyState standing = standing_of(request);
+  const StudyState standing = expanded(request);
   if (standing.all_done()) {
     print(shown(fmt::format("{}: nothing to do; see dresslife report\n", standing.study.name)));
     return 0;

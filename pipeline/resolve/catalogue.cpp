@@ -366,9 +366,14 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
     }
     return fs::path();
   };
-  for (const fs::path& place : folders_beside(folder, named_at, job))
-    if (const fs::path file = found_in(place); !file.empty()) return read_document(file);
-  if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
+  const auto search = [&] {
+    for (const fs::path& place : folders_beside(folder, named_at, job))
+      if (fs::path file = found_in(place); !file.empty()) return file;
+    return found_in(shipped_catalogue() / folder);
+  };
+  const std::string wanted =
+      fmt::format("{}\n{}\n{}\n{}", folder, name, folder_of(named_at).string(), folder_of(job).string());
+  if (const fs::path file = found_once(wanted, search); !file.empty()) return read_document(file);
   const fs::path beside_it = fs::path(beside).concat(".yaml");
   if (is_file(beside_it))
     throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),

@@ -149,6 +149,10 @@ void check_uses(const Dresspack& dresspack) {
   check_thickness(*dresspack.sleeve, "the sleeve", "dresspack", dresspack.diameter / 2);
 }
 
+void check_routing_of(const MountedDresspack& mounted, const Job& job) {
+  check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+}
+
 /// Checks one dresspack. path: prefix of its keys, "" or "dresspacks[2].". Returns the number of levels of its parts;
 /// std::nullopt: unknown.
 std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted, const std::string& path,
@@ -159,9 +163,7 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   };
   if (!job.motion.is_prescribed() && !problems.touch("motion")) {
     if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
-      judge(routing, mounted.routing.where, [&] {
-        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
-      });
+      judge(routing, mounted.routing.where, [&] { check_routing_of(mounted, job); });
     judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
   }
   std::optional<int> depth;
@@ -215,6 +217,11 @@ void check_slopes(const Job& job, const Where& where) {
 }
 
 }  // namespace
+
+void check_between_pieces(const Job& job) {
+  check_motion(job.motion, job.robot);
+  for (const MountedDresspack& mounted : job.dresspacks) check_routing_of(mounted, job);
+}
 
 void check_job(const Job& job, const Node& document, Problems& problems) {
   const auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "pipeline/base/digest.h"
+#include "pipeline/base/program_files.h"
 #include "pipeline/base/related_files.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/job/job_forms.h"
@@ -248,13 +249,15 @@ std::string file_name(const std::filesystem::path& file) { return file.filename(
 
 }  // namespace
 
-std::string part_text(const Job& job, JobPart part) {
+std::vector<std::pair<std::string, std::string>> part_sections(const Job& job, JobPart part) {
   const auto described = part == JobPart::sim      ? describe_sim
                          : part == JobPart::strain ? describe_strain
                                                    : describe_fatigue;
   Job copy = job;  // a part changes it, in the same way at each call
-  return echo_text(Describe([&](Fields& f) { described(f, copy); }), file_name);
+  return echo_sections(Describe([&](Fields& f) { described(f, copy); }), file_name);
 }
+
+std::string part_text(const Job& job, JobPart part) { return joined_text(part_sections(job, part)); }
 
 std::string motion_digest(const Job& job) {
   Motion motion = job.motion;
@@ -272,11 +275,11 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
   std::vector<std::filesystem::path> files;
   for (const auto& file : {job.motion.clamp_poses, job.motion.deformation, job.motion.program})
     if (!file.empty() && !is_folder(file)) files.push_back(file);
-  std::vector<std::filesystem::path> programs{job.motion.program}, beside = files_of_program(job.motion.program);
+  std::vector<std::filesystem::path> programs{job.motion.program}, beside = program_files(job.motion.program);
   for (const ProgramFile& module : job.motion.modules) {
     files.push_back(module.file);
     programs.push_back(module.file);
-    for (const auto& file : files_of_program(module.file)) beside.push_back(file);
+    for (const auto& file : program_files(module.file)) beside.push_back(file);
   }
   for (const auto& file : related_files(programs, std::move(beside), job.motion.routine)) files.push_back(file);
   for (const Link& link : job.robot.links)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
@@ -82,28 +81,6 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   return job;
 }
 
-/// A job's text in two parts.
-struct DividedText {
-  std::string section;  ///< behind as many empty lines as the text has before it
-  std::string beside;   ///< the other lines, without comments before the first key
-};
-
-/// Returns std::nullopt if the text does not look like one by stored_job_text().
-std::optional<DividedText> divided(const std::string& text, const std::string& section) {
-  const std::string key = '\n' + section + ":\n";
-  const std::size_t before = text.find(key);
-  if (before == std::string::npos) return std::nullopt;
-  std::size_t end = before + key.size() - 1;
-  while (end != std::string::npos && end + 1 < text.size() && text[end + 1] == ' ') end = text.find('\n', end + 1);
-  if (end == std::string::npos || end + 1 >= text.size()) return std::nullopt;
-  const std::size_t comment = text.starts_with('#') ? text.find('\n') : 0;
-  return DividedText{std::string(static_cast<std::size_t>(std::count(
-                                     text.begin(), text.begin() + static_cast<std::ptrdiff_t>(before) + 1, '\n')),
-                                 '\n') +
-                         text.substr(before + 1, end - before),
-                     text.substr(comment, before + 1 - comment) + text.substr(end + 1)};
-}
-
 }  // namespace
 
 Job job_from(Node document, const std::vector<std::string>& sets) { return resolved_job(document, sets); }
@@ -116,43 +93,6 @@ Job read_job(const std::filesystem::path& file, const std::vector<std::string>& 
   document = read_document(file);
   return resolved_job(document, sets);
 }
-
-struct StoredJobs::Known {
-  std::string beside;  ///< digest of DividedText::beside
-  std::shared_ptr<const Job> job;
-};
-
-StoredJobs::StoredJobs() = default;
-StoredJobs::~StoredJobs() = default;
-
-std::shared_ptr<const Job> StoredJobs::read(const std::filesystem::path& file) {
-  const std::optional<DividedText> text = divided(read_text(file), "motion");
-  const std::string beside = text ? xxh3(text->beside) : "";
-  const auto same = std::ranges::find_if(known_, [&](const auto& one) { return text && one->beside == beside; });
-  if (same == known_.end()) {
-    last_ = known_.size();
-    return known_.emplace_back(std::make_unique<Known>(Known{beside, std::make_shared<const Job>(read_job(file))}))
-        ->job;
-  }
-  note_input(file);
-  last_ = static_cast<std::size_t>(same - known_.begin());
-  Job job = *(*same)->job;
-  job.motion = motion_from(*parse_yaml(text->section, file.string()).find("motion"));
-  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job));
-  take_length_of_rig(job);
-  return std::make_shared<const Job>(std::move(job));
-}
-
-std::shared_ptr<const Job> StoredJobs::read_dresspacks(const std::filesystem::path& file) {
-  std::string text = read_text(file);
-  for (const char* section : {"motion", "routing"})
-    if (std::optional<DividedText> parts = divided(text, section)) text = std::move(parts->beside);
-  std::shared_ptr<const Job>& same = of_dresspacks_[xxh3(text)];
-  if (!same) same = std::make_shared<const Job>(read_job(file));
-  return same;
-}
-
-std::size_t StoredJobs::beside_motion() const { return last_ + 1; }
 
 Setup setup_from(Node document) { return job_from(std::move(document)); }
 

@@ -3,9 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "pipeline/settings/document.h"
@@ -24,27 +23,6 @@ Job read_job(const std::filesystem::path& file, const std::vector<std::string>& 
 /// document: receives the job with its names resolved, for the places of keys.
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets, Node& document);
 
-/// Reads files by stored_job_text() of one study's jobs, which mostly differ only in their motion. Then the other sections, which
-/// take most of the time, are read once.
-class StoredJobs {
- public:
-  StoredJobs();
-  ~StoredJobs();
-  /// Precondition: the file is unchanged since it was written, so its job is valid. Errors: InputError.
-  std::shared_ptr<const Job> read(const std::filesystem::path& file);
-  /// Returns a job with the dresspacks and the settings of strain and fatigue of a file; its motion and routing may be those of an
-  /// earlier file. Precondition and errors: those of read().
-  std::shared_ptr<const Job> read_dresspacks(const std::filesystem::path& file);
-  /// Returns a number other than 0 of the sections beside the motion of the last job of read(); equal numbers mean equal text.
-  std::size_t beside_motion() const;
-
- private:
-  struct Known;
-  std::vector<std::unique_ptr<Known>> known_;
-  std::size_t last_ = 0;
-  std::unordered_map<std::string, std::shared_ptr<const Job>> of_dresspacks_;  ///< by digests of the other sections
-};
-
 /// Reads a job from a tree: that of a study, or of the `job` attribute of a file.
 Job job_from(Node document, const std::vector<std::string>& sets = {});
 Setup setup_from(Node document);
@@ -60,6 +38,8 @@ std::string stored_job_text(const Job& job, const std::filesystem::path& folder)
 /// give equal results. The text contains names of files without folders.
 enum class JobPart { sim, strain, fatigue };
 std::string part_text(const Job& job, JobPart part);
+/// Returns the same text by its top-level keys.
+std::vector<std::pair<std::string, std::string>> part_sections(const Job& job, JobPart part);
 
 /// Returns a digest of motion, robot, routings and names of the dresspacks, with the content of the program. It does not depend on
 /// folders, settings of the calculation and uncertain parameters. Errors: InputError for a file that cannot be read.

@@ -748,7 +748,7 @@ Node echo_fields(const Describe& described, const PathText& path_text) {
   return echo.finish();
 }
 
-std::string echo_text(const Describe& described, const PathText& path_text) {
+EchoSections echo_sections(const Describe& described, const PathText& path_text) {
   constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
   thread_local std::unordered_map<std::string, std::string> known;
   thread_local std::size_t kept = 0;
@@ -771,9 +771,27 @@ std::string echo_text(const Describe& described, const PathText& path_text) {
       kept += (known[digest] = alone.entries.empty() ? "" : to_yaml(alone)).size();
     }
   }
+  return mapped(bytes.sections,
+                [](const FieldBytes::Section& section) { return std::pair(section.key, known[section.bytes]); });
+}
+
+std::string joined_text(const EchoSections& sections) {
   std::string text;
-  for (const FieldBytes::Section& section : bytes.sections) text += known[section.bytes];
+  for (const auto& [key, section] : sections) text += section;
   return text.empty() ? "{}\n" : text;
+}
+
+std::string echo_digest(const Describe& described) {
+  const PathText whole_paths;
+  FieldBytes bytes(whole_paths);
+  described(bytes);
+  std::string all;
+  for (const auto& [key, value] : bytes.sections) all += key + '\n' + value;
+  return xxh3(all);
+}
+
+std::string echo_text(const Describe& described, const PathText& path_text) {
+  return joined_text(echo_sections(described, path_text));
 }
 
 std::vector<KeyRow> key_rows(const std::string& title, const Describe& described) {

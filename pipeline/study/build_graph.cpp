@@ -68,11 +68,12 @@ Programs found_programs(const StudyPlaces& places) {
 
 /// Sets the recipe of each stage: digests of the settings, files and program that the stage reads. held: guards `digests`. The
 /// texts of the settings take almost all the time and are made without it.
-void set_recipes(JobState& state, const Job& job, const Programs& programs, Digests& digests, std::mutex& held) {
-  const std::vector<fs::path> files = files_beside(job);
+void set_recipes(JobState& state, const StudyJob& job, const Programs& programs, PieceTexts& texts, Digests& digests,
+                 std::mutex& held) {
+  const std::vector<fs::path> files = texts.files_beside(*job.job, job.pieces());
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
-    const std::string text = part_text(job, stages[k].part);
+    const std::string text = texts.part_text(*job.job, stages[k].part, job.pieces());
     const std::lock_guard lock(held);
     state.recipes[k] =
         recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{}, programs[k], digests);
@@ -438,16 +439,18 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, D
   const std::size_t parts = std::min(thread_count(), states.size());
   in_parallel(parts, [&](std::size_t part) {
     const Sources::Guest guest(sources);
-    for (std::size_t k = part; k < states.size(); k += parts)
-      if (study.jobs[k].failure.empty()) set_recipes(states[k], *study.jobs[k].job, programs, digests, held);
+    PieceTexts texts;
+    for (std::size_t k = part * states.size() / parts; k < (part + 1) * states.size() / parts; ++k) {
+      const fs::path folder = places.job(study.jobs[k].name);
+      states[k].keep = study.keep;
+      if (!study.jobs[k].failure.empty()) {
+        find_last(states[k], folder);
+        continue;
+      }
+      set_recipes(states[k], study.jobs[k], programs, texts, digests, held);
+      look_at(states[k], folder);
+    }
   });
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    states[k].keep = study.keep;
-    if (study.jobs[k].failure.empty())
-      look_at(states[k], places.job(study.jobs[k].name));
-    else
-      find_last(states[k], places.job(study.jobs[k].name));
-  }
   return states;
 }
 
@@ -474,23 +477,27 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
   const std::vector<Makers> makers = makers_of(study, states);
   const SameOutput same = same_output_of(study, states, makers);
   std::vector<std::string> chains(states.size());
-  const auto prepare = [&](std::size_t k) {
+  const auto prepare = [&](std::size_t k, PieceTexts& texts) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) return;
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
-    make_notes(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
+    if (!states[k].done()) make_notes(folder / ".stage");
+    write_text_if_changed(folder / "job.yaml",
+                          with_mark(texts.stored_job_text(*job.job, job.name, job.pieces()), Mark::yaml), Sync::never);
     if (states[k].done()) return;
-    check_notes(folder / ".stage");
-    for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
-    for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
-      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) remove_ours(folder / log);
+    if (!is_new) {
+      check_notes(folder / ".stage");
+      for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
+      for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
+        for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) remove_ours(folder / log);
+    }
     chains[k] = chain_of(study, places, states[k], k, makers, same);
   };
   const std::size_t parts = std::min(thread_count(), states.size());
   in_parallel(parts, [&](std::size_t part) {
-    for (std::size_t k = part; k < states.size(); k += parts) prepare(k);
+    PieceTexts texts(places.folder);
+    for (std::size_t k = part * states.size() / parts; k < (part + 1) * states.size() / parts; ++k) prepare(k, texts);
   });
   std::string graph = rules(places, limits, launcher);
   for (const std::string& chain : chains) graph += chain;

@@ -76,7 +76,7 @@ std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces
   const fs::path life = places.life(job.name);
   if (!state_of(life).exists()) return {};
   const std::string was = FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
-  const fs::path settings = places.job(job.name) / "job.yaml";  // the present settings of a study that was not expanded
+  const fs::path settings = places.job(job.name) / "job.yaml";  // of a job that was not expanded
   const std::string now = job.job ? stored_job_text(*job.job, places.job(job.name)) : read_text(settings);
   return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/study/known_study.h"
+#include "pipeline/study/study_state.h"
 #include "pipeline/study/variant.h"
 
 namespace dresslife::pipeline {

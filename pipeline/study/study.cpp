@@ -1,6 +1,7 @@
 #include "pipeline/study/study.h"
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 #include <unordered_map>
 
@@ -11,7 +12,6 @@
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
-#include "pipeline/resolve/other_routing.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/fleet_table.h"
@@ -165,10 +165,30 @@ std::vector<std::string> varied_of(const Node& study) {
 /// Longest name of a job's folder. File systems allow 255 letters, and files of a job have longer names than its folder.
 constexpr std::size_t longest_name = 200;
 
-/// Valid jobs by everything but their routing.
-using JobsByRest = std::unordered_map<std::string, std::shared_ptr<const Job>>;
+/// A job with a piece, and the number of the piece.
+struct KnownPiece {
+  std::shared_ptr<const Job> job;
+  std::size_t number = 0;
+};
+/// Known pieces by the changes that make them from the base: (Piece) changes as text.
+using KnownPieces = std::array<std::unordered_map<std::string, KnownPiece>, piece_count>;
+using PieceTextsOfChanges = std::array<std::string, piece_count>;
 
-bool is_of_routing(std::string_view path) { return path == "routing" || path.starts_with("routing."); }
+/// Returns the changes of each piece as text; std::nullopt: a change concerns several pieces.
+std::optional<PieceTextsOfChanges> changes_of_pieces(const std::vector<Change>& changes) {
+  PieceTextsOfChanges texts;
+  for (const Change& change : changes) {
+    const std::optional<Piece> piece = piece_of(change.path);
+    if (!piece) return std::nullopt;
+    // The places are in the text because parts of a job know theirs.
+    texts[index_of(*piece)] += fmt::format("{}\n{}\n{}\n{}", change.path, change.where.text(),
+                                           change.value.where.text(), to_yaml(change.value));
+  }
+  texts[index_of(Piece::routing)] += '\n' + texts[index_of(Piece::robot)];
+  return texts;
+}
+
+bool is_of_routing(std::string_view path) { return piece_of(path) == Piece::routing; }
 
 /// Returns the base with changes and sets.
 Job changed_job(Node base, const std::vector<Change>& changes, const std::vector<std::string>& sets) {
@@ -176,11 +196,14 @@ Job changed_job(Node base, const std::vector<Change>& changes, const std::vector
   return job_from(std::move(base), sets);
 }
 
-/// Returns a known job with the routing that the base, changes and sets give; null: it must be read as a whole.
-std::shared_ptr<const Job> rerouted(const Job& known, const Node& base, const std::vector<Change>& changes,
-                                    const std::vector<std::string>& sets) {
-  Node document = base;
-  std::erase_if(document.entries, [](const Entry& entry) { return !is_of_routing(entry.key); });
+/// Returns the routing that the base, changes and sets give, in a tree; std::nullopt: it must be read with the whole job.
+std::optional<Node> routing_of(const Node& base, const std::vector<Change>& changes,
+                               const std::vector<std::string>& sets) {
+  Node document;
+  document.kind = Node::Kind::map;
+  document.where = base.where;
+  std::ranges::copy_if(base.entries, std::back_inserter(document.entries),
+                       [](const Entry& entry) { return is_of_routing(entry.key); });
   try {
     apply_lines(document);
     for (const Change& change : changes)
@@ -188,14 +211,41 @@ std::shared_ptr<const Job> rerouted(const Job& known, const Node& base, const st
     for (const std::string& set : sets)
       if (is_of_routing(set.substr(0, set.find('=')))) apply_set(document, set);
   } catch (const InputError&) {  // job_from() collects it with the other problems of the job
-    return nullptr;
+    return std::nullopt;
   }
-  std::optional<Job> job = with_routing(known, document);
-  return job ? std::make_shared<const Job>(std::move(*job)) : nullptr;
+  const Node* const routing = document.find("routing");
+  return routing ? std::optional(*routing) : std::nullopt;
+}
+
+/// Returns the job of these changes from known pieces; null: it must be read as a whole.
+std::shared_ptr<const Job> from_known(const KnownPieces& known, const PieceTextsOfChanges& texts, const Node& base,
+                                      const std::vector<Change>& changes, const std::vector<std::string>& sets) {
+  std::array<const Job*, piece_count> pieces{};
+  for (std::size_t k = 0; k < piece_count; ++k)
+    if (const auto found = known[k].find(texts[k]); found != known[k].end())
+      pieces[k] = found->second.job.get();
+    else if (k != index_of(Piece::routing))
+      return nullptr;
+  std::optional<Node> routing;
+  if (!pieces[index_of(Piece::routing)] && !(routing = routing_of(base, changes, sets))) return nullptr;
+  std::optional<Job> job = job_from_pieces(pieces, routing ? &*routing : nullptr);
+  return job ? std::make_shared<const Job>(*std::move(job)) : nullptr;
+}
+
+/// Notes the pieces of a job.
+void note_pieces(StudyJob& made, PieceTextsOfChanges texts, KnownPieces& known) {
+  static std::atomic<std::size_t> last = 0;
+  if (!has_pieces(*made.job)) return;
+  for (std::size_t k = 0; k < piece_count; ++k) {
+    const auto [piece, is_new] = known[k].try_emplace(std::move(texts[k]));
+    if (is_new) piece->second = {made.job, ++last};
+    made.numbers[k] = piece->second.number;
+  }
+  made.divided = made.job;
 }
 
 StudyJob make_job(const Node& base, const std::string& name, const Variant& variant,
-                  const std::vector<std::string>& sets, JobsByRest& known) {
+                  const std::vector<std::string>& sets, KnownPieces& known) {
   StudyJob made;
   made.name = name;
   made.values = variant.values;
@@ -208,15 +258,10 @@ StudyJob make_job(const Node& base, const std::string& name, const Variant& vari
     // Sets a section before its keys: otherwise `vary: {motion: ..}` would overwrite a job's motion.ramp_percent.
     std::vector<Change> changes = variant.changes;
     std::ranges::stable_sort(changes, {}, [](const Change& change) { return std::ranges::count(change.path, '.'); });
-    std::string rest;  // the places are in it because parts of a job know theirs
-    for (const Change& change : changes)
-      if (!is_of_routing(change.path))
-        rest += fmt::format("{}\n{}\n{}\n{}", change.path, change.where.text(), change.value.where.text(),
-                            to_yaml(change.value));
-    std::shared_ptr<const Job>& same = known[rest];
-    if (same) made.job = rerouted(*same, base, changes, sets);
+    std::optional<PieceTextsOfChanges> texts = changes_of_pieces(changes);
+    if (texts) made.job = from_known(known, *texts, base, changes, sets);
     if (!made.job) made.job = std::make_shared<const Job>(changed_job(base, changes, sets));
-    same = made.job;
+    if (texts) note_pieces(made, *std::move(texts), known);
   } catch (const InputError& problem) {
     made.failure = problem.what();
   }
@@ -296,7 +341,7 @@ Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::str
   const Node document = read_document(file);
   Study study;
   if (is_job(document)) {
-    JobsByRest known;
+    KnownPieces known;
     study.name = folder_name(file.stem().string());
     check_name(study.name, document.where);
     if (!shard || !part_of({Variant{}}, *shard).empty())
@@ -326,7 +371,7 @@ Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::str
   Sources* const sources = Sources::of_this_thread();
   in_parallel(parts, [&](std::size_t part) {
     const Sources::Guest guest(sources);
-    JobsByRest known;
+    KnownPieces known;
     for (std::size_t i = part * indices.size() / parts; i < (part + 1) * indices.size() / parts; ++i)
       study.jobs[i] = make_job(base, names[indices[i]], variants[indices[i]], sets, known);
   });

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "pipeline/base/words.h"
+#include "pipeline/resolve/pieces.h"
 
 namespace dresslife::pipeline {
 
@@ -31,8 +32,10 @@ struct StudyJob {
   std::shared_ptr<const Job> job;     ///< only of a valid job in an expanded study
   std::string failure;                ///< reasons why the job is invalid, one line per problem; empty: it is valid
   std::vector<std::string> values{};  ///< (varied) values of the varied keys, as in the name
-  /// Jobs of a study with one number other than 0 differ only in their motion. 0: not known.
-  std::size_t beside_motion = 0;
+  /// Numbers of the pieces of `divided`, which are those of `job` while both are the same object.
+  PieceNumbers numbers{};
+  std::shared_ptr<const Job> divided{};
+  PieceNumbers pieces() const { return divided == job ? numbers : PieceNumbers{}; }
 };
 
 /// Files of a finished job that stay on the disk.

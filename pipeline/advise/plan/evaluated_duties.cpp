@@ -79,20 +79,22 @@ std::string text_beside_motion(Job job) {
 std::map<const Job*, std::size_t> sections_of(const DutyFile& file, const Jobs& jobs) {
   std::map<const Job*, std::size_t> numbers;
   std::map<std::string, std::size_t> texts;
-  std::map<std::size_t, std::size_t> known;  // (StudyJob::beside_motion)
+  std::map<PieceNumbers, std::size_t> known;  // (numbers of the pieces beside the motion)
   std::map<std::map<std::string, std::string>, std::size_t> sections;
   for (const Duty& duty : file.duties)
     for (const DutyProgram& program : duty.programs)
       if (const StudyJob* const of = jobs.find(program.job); of && !numbers.contains(of->job.get())) {
         const Job* const job = of->job.get();
-        if (const auto same = known.find(of->beside_motion); of->beside_motion != 0 && same != known.end()) {
+        PieceNumbers pieces = of->pieces();
+        pieces[index_of(Piece::motion)] = 0;
+        if (const auto same = known.find(pieces); pieces != PieceNumbers{} && same != known.end()) {
           numbers[job] = same->second;
           continue;
         }
         const auto [text, is_new] = texts.try_emplace(text_beside_motion(*job), 0);
         if (is_new) text->second = sections.try_emplace(beside_motion(*job), sections.size()).first->second;
         numbers[job] = text->second;
-        known.emplace(of->beside_motion, text->second);
+        known.emplace(pieces, text->second);
       }
   return numbers;
 }

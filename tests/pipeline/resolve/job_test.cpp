@@ -646,23 +646,4 @@ TEST_CASE("job: the manual lists every key once with range, default and meaning"
   CHECK(manual.find("The clamp nearer to the tool. Its keys are those of `routing.base_clamp`.") != std::string::npos);
 }
 
-TEST_CASE("stored jobs that differ in their motion are read as each alone") {
-  const Scratch scratch;
-  const std::vector<std::vector<std::string>> sets{
-      {}, {"motion.speed_percent=50"}, {"simulation.segments=33"}, {"motion.zone_deg=3"}};
-  std::vector<std::size_t> beside;
-  StoredJobs stored;
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    const auto file = scratch.write(fmt::format("job_{}.yaml", k),
-                                    "# a mark\n" + stored_job_text(job_of_text(sample_job, sets[k]), scratch.folder()));
-    const auto job = stored.read(file);
-    const Job alone = read_job(file);
-    CHECK(job_text(*job) == job_text(alone));
-    CHECK(job->motion.left_out.size() == alone.motion.left_out.size());
-    CHECK(job->dresspacks.front().routing.free_length == alone.dresspacks.front().routing.free_length);
-    beside.push_back(stored.beside_motion());
-  }
-  CHECK(beside == std::vector<std::size_t>{1, 1, 2, 1});
-}
-
 }  // namespace

@@ -1,5 +1,8 @@
 #include "pipeline/study/study.h"
 
+#include <filesystem>
+#include <set>
+
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
@@ -7,6 +10,7 @@
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -251,6 +255,96 @@ TEST_CASE("study: jobs that differ in their routing are those that are read alon
   }
   CHECK(refused >= 3);
   CHECK(doubted == 1);
+}
+
+TEST_CASE("study: jobs from pieces of other jobs are those that are read alone, also if some are refused") {
+  const Scratch scratch;
+  struct Varied {
+    std::string key, values[2];
+  };
+  const Varied varied[] = {{"motion", {"spot_robot_1", "easy"}},
+                           {"robot.joints.2.upper_deg", {"20", "85"}},  // the motions need more than 20
+                           {"routing.free_length_m", {"2.05", "0.3"}},
+                           {"simulation.segments", {"32", "64"}},
+                           {"dresspack.diameter_mm", {"80", "75"}}};
+  const std::size_t count = std::size_t{1} << std::size(varied);
+  const std::vector<std::string> sets{"simulation.sample_rate_Hz=20"};
+  std::string together = "base: irb6640_spot_welding\nvary:\n";
+  for (const Varied& of : varied) together += fmt::format("  {}: [{}, {}]\n", of.key, of.values[0], of.values[1]);
+  const fs::path file = scratch.write("study.yaml", together);
+  const Study all = read_study(file, sets);
+  REQUIRE(all.jobs.size() == count);
+  PieceTexts texts(scratch / "runs");
+  std::size_t refused = 0;
+  std::set<std::size_t> dresspacks;
+  for (std::size_t k = 0; k < count; ++k) {
+    INFO(all.jobs[k].name);
+    std::string alone = "base: irb6640_spot_welding\nvary:\n";  // each value at the same place as in the common study
+    for (std::size_t v = 0; v < std::size(varied); ++v) {
+      const bool second = (k >> (std::size(varied) - 1 - v)) % 2 == 1;
+      alone += fmt::format("  {}: [{}{}]\n", varied[v].key,
+                           std::string(second ? varied[v].values[0].size() + 2 : 0, ' '), varied[v].values[second]);
+    }
+    scratch.write("study.yaml", alone);
+    const StudyJob &mine = all.jobs[k], his = read_study(file, sets).jobs.at(0);
+    CHECK(mine.name == his.name);
+    CHECK(mine.failure == his.failure);
+    refused += !his.failure.empty();
+    REQUIRE((mine.job == nullptr) == (his.job == nullptr));
+    if (!his.job) continue;
+    CHECK(job_text(*mine.job) == job_text(*his.job));
+    CHECK(mine.job->motion.left_out == his.job->motion.left_out);
+    for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
+      CHECK(texts.part_text(*mine.job, part, mine.pieces()) == part_text(*his.job, part));
+    CHECK(texts.stored_job_text(*mine.job, mine.name, mine.pieces()) ==
+          stored_job_text(*his.job, scratch / "runs" / mine.name));
+    dresspacks.insert(mine.pieces()[index_of(Piece::rest)]);
+  }
+  CHECK(refused >= count / 2);
+  CHECK(refused < count);
+  CHECK(dresspacks.size() < count - refused);  // they are shared
+  CHECK_FALSE(dresspacks.contains(0));
+}
+
+TEST_CASE(
+    "study: a key that a calibration sets belongs to the rest of a job, and a part of a job is divided with care") {
+  for (const UncertainParameter& parameter : uncertain_parameters()) {
+    CHECK(piece_of(parameter.key) == Piece::rest);
+    // job_from_pieces() takes this key of `simulation` from the rest.
+    if (parameter.key.starts_with("simulation.")) CHECK(parameter.key == "simulation.stiffness_factor");
+  }
+  CHECK(piece_of("simulation.segments") == Piece::simulation);
+  CHECK(piece_of("motion") == Piece::motion);
+  CHECK(piece_of("robot.joints.1.upper_deg") == Piece::robot);
+  CHECK(piece_of("routing.side") == Piece::routing);
+  CHECK(piece_of("routings") == Piece::rest);
+  CHECK_FALSE(piece_of("simulation"));
+  CHECK_FALSE(piece_of("dresspacks.1.routing.side"));
+}
+
+TEST_CASE("study: a changed copy of a job has no pieces, and a file in the study's folder is named as from each job") {
+  const Scratch scratch;
+  fs::create_directories(scratch / "runs/study");
+  scratch.write("runs/study/weld.csv", "0,0\n1,1\n");
+  scratch.write("job.yaml", sample_job);
+  Study study = read_study(scratch.write("study.yaml",
+                                         "base: job.yaml\nvary:\n  simulation.segments: [20, 30]\n"
+                                         "  dresspack.friction_coefficient: [0.2, 0.3]\n"));
+  StudyJob& job = study.jobs.at(0);
+  REQUIRE(job.job);
+  CHECK(job.pieces() != PieceNumbers{});
+  Job changed = *job.job;
+  changed.motion.program = scratch / "runs/study/a/weld.csv";
+  PieceTexts texts(scratch / "runs/study");
+  const PieceNumbers numbers = job.pieces();
+  fs::create_directory_symlink(scratch.folder(), scratch / "runs/study/link");
+  for (const char* name : {"a", "b", "link"}) {
+    CHECK(texts.stored_job_text(changed, name, numbers) == stored_job_text(changed, scratch / "runs/study" / name));
+    changed.motion.program = name == std::string("b") ? scratch / "elsewhere/weld.csv" : changed.motion.program;
+  }
+  CHECK(texts.stored_job_text(changed, "c", numbers) == stored_job_text(changed, scratch / "runs/study/c"));
+  job.job = std::make_shared<const Job>(changed);
+  CHECK(job.pieces() == PieceNumbers{});
 }
 
 }  // namespace

@@ -1,0 +1,156 @@
+#include "pipeline/resolve/pieces.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/base/plain_file.h"
+#include "pipeline/job/job_forms.h"
+#include "pipeline/resolve/check_job.h"
+#include "pipeline/resolve/plausible_job.h"
+#include "pipeline/settings/echo_text.h"
+#include "pipeline/settings/fields.h"
+
+namespace dresslife::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the numbers of these pieces; the others are 0.
+PieceNumbers only(const std::vector<Piece>& pieces, const PieceNumbers& numbers) {
+  PieceNumbers some{};
+  for (const Piece piece : pieces) some[index_of(piece)] = numbers[index_of(piece)];
+  return some;
+}
+
+/// Returns the numbers for `simulation`: of all keys of the rest, it has only one.
+PieceNumbers of_simulation(const Job& job, const PieceNumbers& numbers) {
+  PieceNumbers some = only({Piece::simulation}, numbers);
+  some[index_of(Piece::rest)] = std::bit_cast<std::uint64_t>(job.simulation.stiffness_factor);
+  return some;
+}
+
+}  // namespace
+
+std::optional<Piece> piece_of(std::string_view path) {
+  const std::string_view section = path.substr(0, path.find('.'));
+  if (section == "motion") return Piece::motion;
+  if (section == "robot") return Piece::robot;
+  if (section == "routing") return Piece::routing;
+  if (path == "simulation" || section == "dresspacks") return std::nullopt;
+  const auto is_learned = [&](const UncertainParameter& parameter) { return parameter.key == path; };
+  return section == "simulation" && std::ranges::none_of(uncertain_parameters(), is_learned) ? Piece::simulation
+                                                                                             : Piece::rest;
+}
+
+bool has_pieces(const Job& job) {
+  const std::optional<Calibration>& learned = job.calibration;
+  return forms_of(job).one && job.motion.needs_robot() && !job.robot.joints.empty() &&
+         (!learned || (learned->typical && learned->own_spread == 1 && learned->residual_spread == 1));
+}
+
+std::optional<Job> job_from_pieces(const std::array<const Job*, piece_count>& pieces, const Node* routing) {
+  const auto of = [&](Piece piece) -> const Job& { return *pieces[index_of(piece)]; };
+  Job job = of(Piece::rest);
+  Routing& own = job.dresspacks.front().routing;
+  job.motion =
+      Motion(of(Piece::motion).motion);  // a copy of its own, because an assignment keeps memory that it does not need
+  job.robot = Robot(of(Piece::robot).robot);
+  job.simulation = of(Piece::simulation).simulation;
+  job.simulation.stiffness_factor = of(Piece::rest).simulation.stiffness_factor;
+  own = routing ? Routing{} : of(Piece::routing).dresspacks.front().routing;
+  try {
+    if (routing) {
+      read_fields(*routing, own);
+      place_clamps(own, job.robot);
+    }
+    job.motion.left_out = plausibility_of_motion(job);
+    check_between_pieces(job);
+  } catch (const InputError&) {  // job_from() finds the same problem and places it in the whole document
+    return std::nullopt;
+  }
+  return job;
+}
+
+/// A top-level key of a text, and the pieces on which its value depends; without pieces: of_simulation(). An empty key: all keys.
+struct PieceTexts::Section {
+  std::string_view key;
+  std::vector<Piece> pieces;
+
+  PieceNumbers numbers(const Job& job, const PieceNumbers& all) const {
+    return pieces.empty() ? of_simulation(job, all) : only(pieces, all);
+  }
+};
+
+// In the order of the texts.
+const PieceTexts::Sections PieceTexts::of_sim{{"motion", {Piece::motion}},       {"robot", {Piece::robot}},
+                                              {"dresspack", {Piece::rest}},      {"routing", {Piece::routing}},
+                                              {"cell", {Piece::rest}},           {"simulation", {}},
+                                              {"other_stiffness", {Piece::rest}}};
+const PieceTexts::Sections PieceTexts::of_job{
+    {"motion", {Piece::motion}},    {"robot", {Piece::robot}},     {"dresspack", {Piece::rest}},
+    {"routing", {Piece::routing}},  {"cell", {Piece::rest}},       {"simulation", {}},
+    {"strain", {Piece::rest}},      {"fatigue", {Piece::rest}},    {"inspection", {Piece::rest}},
+    {"uncertainty", {Piece::rest}}, {"calibration", {Piece::rest}}};
+const PieceTexts::Sections PieceTexts::whole{{"", {Piece::rest}}};
+
+std::optional<std::string> PieceTexts::known(const Job& job, const Sections& sections, std::size_t text,
+                                             const PieceNumbers& numbers) const {
+  if (numbers == PieceNumbers{}) return std::nullopt;
+  std::string joined;
+  for (const Section& section : sections) {
+    const auto found = sections_.find({text++, section.numbers(job, numbers)});
+    if (found == sections_.end()) return std::nullopt;
+    joined += found->second;
+  }
+  return joined;
+}
+
+void PieceTexts::keep(const Job& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
+                      const std::vector<std::pair<std::string, std::string>>& made) {
+  constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
+  if (numbers == PieceNumbers{}) return;
+  if (kept_ > most_kept) sections_.clear(), kept_ = 0;
+  for (const Section& section : sections) {
+    std::string of_section;
+    for (const auto& [key, words] : made)
+      if (section.key.empty() || section.key == key) of_section += words;
+    kept_ += of_section.size();
+    sections_[{text++, section.numbers(job, numbers)}] = std::move(of_section);
+  }
+}
+
+std::string PieceTexts::part_text(const Job& job, JobPart part, const PieceNumbers& numbers) {
+  const Sections& sections = part == JobPart::sim ? of_sim : whole;
+  const std::size_t text = 100 * static_cast<std::size_t>(part);
+  if (std::optional<std::string> same = known(job, sections, text, numbers)) return *std::move(same);
+  const auto made = part_sections(job, part);
+  keep(job, sections, text, numbers, made);
+  return joined_text(made);
+}
+
+std::string PieceTexts::stored_job_text(const Job& job, const std::string& name, const PieceNumbers& numbers) {
+  constexpr std::size_t text = 1000;
+  const fs::path folder = around_ / name;
+  const bool beside_others = kind_of_name(folder) != FileKind::link;
+  if (std::optional<std::string> same = beside_others ? known(job, of_job, text, numbers) : std::nullopt)
+    return *std::move(same);
+  bool same_for_others = beside_others;  // the text is the same in every folder beside this one
+  const auto made =
+      echo_sections(Describe([copy = job](Fields& f) mutable { describe(f, copy); }), [&](const fs::path& file) {
+        fs::path seen = as_seen_from(folder, file);
+        same_for_others = same_for_others && seen.native().starts_with("../../");
+        return seen.string();
+      });
+  if (same_for_others) keep(job, of_job, text, numbers, made);
+  return joined_text(made);
+}
+
+std::vector<fs::path> PieceTexts::files_beside(const Job& job, const PieceNumbers& numbers) {
+  if (numbers == PieceNumbers{}) return pipeline::files_beside(job);
+  const auto [known, is_new] = files_.try_emplace(only({Piece::motion, Piece::robot, Piece::rest}, numbers));
+  if (is_new) known->second = pipeline::files_beside(job);
+  return known->second;
+}
+
+}  // namespace dresslife::pipeline

@@ -1,0 +1,68 @@
+// A job from the pieces of other jobs. Jobs of a study mostly combine a few robots, motions, routings and dresspacks. A job from known
+// pieces takes a small part of the time of a whole reading.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipeline/resolve/job_text.h"
+
+namespace dresslife::pipeline {
+
+/// The keys of one piece do not affect another piece, except that a routing depends on its robot. rest: all other keys, and
+/// simulation.stiffness_factor, which a calibration sets.
+enum class Piece : std::size_t { motion, robot, routing, simulation, rest };
+inline constexpr std::size_t piece_count = 5;
+constexpr std::size_t index_of(Piece piece) { return static_cast<std::size_t>(piece); }
+
+/// (Piece) number of the piece. Two jobs with one number have the same piece, in the whole program. 0: not known.
+using PieceNumbers = std::array<std::size_t, piece_count>;
+
+/// Returns the piece of a key; std::nullopt: the key belongs to several pieces.
+std::optional<Piece> piece_of(std::string_view path);
+
+/// Returns whether a job can be divided into pieces: a robot moves one dresspack, and no calibration depends on the motion.
+bool has_pieces(const Job& job);
+
+/// Returns the job from the pieces of these jobs, (Piece). routing: a tree with only the key `routing`, which replaces that piece; null:
+/// none. std::nullopt: the pieces do not fit to each other; then job_from() reads the whole job and reports why. Precondition:
+/// job_from() returned the jobs, they have pieces, and their other pieces come from the same base.
+std::optional<Job> job_from_pieces(const std::array<const Job*, piece_count>& pieces, const Node* routing);
+
+/// Texts of jobs, kept by the numbers of their pieces. The functions return what those of job_text.h return.
+class PieceTexts {
+ public:
+  /// around: folder that contains the folders of the jobs, for stored_job_text().
+  explicit PieceTexts(std::filesystem::path around = {}) : around_(std::move(around)) {}
+
+  std::string part_text(const Job& job, JobPart part, const PieceNumbers& numbers);
+  /// name: of the job's folder.
+  std::string stored_job_text(const Job& job, const std::string& name, const PieceNumbers& numbers);
+  std::vector<std::filesystem::path> files_beside(const Job& job, const PieceNumbers& numbers);
+
+ private:
+  struct Section;
+  using Sections = std::vector<Section>;
+  static const Sections of_sim, of_job, whole;
+
+  /// Returns the text from its kept sections; std::nullopt if one is not known.
+  std::optional<std::string> known(const Job& job, const Sections& sections, std::size_t text,
+                                   const PieceNumbers& numbers) const;
+  void keep(const Job& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
+            const std::vector<std::pair<std::string, std::string>>& made);
+
+  /// (index of the section in a text, numbers of the pieces on which it depends)
+  std::map<std::pair<std::size_t, PieceNumbers>, std::string> sections_;
+  std::size_t kept_ = 0;  ///< bytes in `sections_`
+  std::map<PieceNumbers, std::vector<std::filesystem::path>> files_;
+  std::filesystem::path around_;
+};
+
+}  // namespace dresslife::pipeline
