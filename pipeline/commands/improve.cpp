@@ -11,7 +11,6 @@
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/story.h"
 #include "pipeline/base/joined.h"
-#include "pipeline/base/lists.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
@@ -88,7 +87,10 @@ class SearchProgress {
 };
 
 FilesAtStart files_of(const Study& study) {
-  return FilesAtStart(filtered(mapped(study.jobs, &StudyJob::job), [](const auto& job) { return job != nullptr; }));
+  std::vector<std::shared_ptr<const Job>> jobs;
+  for (const StudyJob& job : study.jobs)
+    if (job.job) jobs.push_back(job.job);
+  return FilesAtStart(std::move(jobs));
 }
 
 /// Ends a search whose files changed. Its trials so far belong to the old files.

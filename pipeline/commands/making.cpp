@@ -197,7 +197,9 @@ void ToleranceRuns::show(double share) {
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows) {
-  const auto is_rated = [](const StudyJob& job) { return job.failure.empty() && job.job && has_ratings(*job.job); };
+  const auto is_rated = [](const StudyJob& job) {
+    return job.failure.empty() && job.job && has_ratings(job.job.with(Piece::rest));
+  };
   if (study.keep == Keep::lives && std::ranges::any_of(study.jobs, is_rated))
     write_stderr(
         "note: no life in rated cycles, because keep: lives keeps no damage of single places. Remedy: "

@@ -132,7 +132,7 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
 /// Returns whether the samples come from a calibration with the table of a maintenance system.
 bool knows_survivors(const Study& study) {
   return std::ranges::any_of(study.jobs, [](const StudyJob& one) {
-    return one.job && one.job->calibration && counts_survivors(*one.job->calibration);
+    return one.job && one.job.with(Piece::rest).calibration && counts_survivors(*one.job.with(Piece::rest).calibration);
   });
 }
 

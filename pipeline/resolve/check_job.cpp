@@ -149,8 +149,8 @@ void check_uses(const Dresspack& dresspack) {
   check_thickness(*dresspack.sleeve, "the sleeve", "dresspack", dresspack.diameter / 2);
 }
 
-void check_routing_of(const MountedDresspack& mounted, const Job& job) {
-  check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
+void check_routing_of(const Routing& routing, const Dresspack& dresspack, const Robot& robot, const Motion& motion) {
+  check_routing(routing, dresspack.diameter, robot, !motion.clamp_poses.empty());
 }
 
 /// Checks one dresspack. path: prefix of its keys, "" or "dresspacks[2].". Returns the number of levels of its parts;
@@ -163,7 +163,8 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   };
   if (!job.motion.is_prescribed() && !problems.touch("motion")) {
     if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
-      judge(routing, mounted.routing.where, [&] { check_routing_of(mounted, job); });
+      judge(routing, mounted.routing.where,
+            [&] { check_routing_of(mounted.routing, mounted.dresspack, job.robot, job.motion); });
     judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
   }
   std::optional<int> depth;
@@ -218,9 +219,9 @@ void check_slopes(const Job& job, const Where& where) {
 
 }  // namespace
 
-void check_between_pieces(const Job& job) {
-  check_motion(job.motion, job.robot);
-  for (const MountedDresspack& mounted : job.dresspacks) check_routing_of(mounted, job);
+void check_between_pieces(const Motion& motion, const Robot& robot, const Routing& routing, const Job& rest) {
+  check_motion(motion, robot);
+  check_routing_of(routing, rest.dresspacks.front().dresspack, robot, motion);
 }
 
 void check_job(const Job& job, const Node& document, Problems& problems) {

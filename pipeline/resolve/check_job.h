@@ -10,8 +10,8 @@ namespace dresslife::pipeline {
 /// which the job was read.
 void check_job(const Job& job, const Node& document, Problems& problems);
 
-/// Does the checks of check_job() that compare pieces of a job (pieces.h) with each other. Precondition: has_pieces(). Errors:
-/// InputError.
-void check_between_pieces(const Job& job);
+/// Does the checks of check_job() that compare pieces of a job (pieces.h) with each other. rest: job with its dresspack. Precondition:
+/// has_pieces(). Errors: InputError.
+void check_between_pieces(const Motion& motion, const Robot& robot, const Routing& routing, const Job& rest);
 
 }  // namespace dresslife::pipeline

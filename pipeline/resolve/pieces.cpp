@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <mutex>
+#include <stdexcept>
 
 #include "pipeline/base/plain_file.h"
 #include "pipeline/job/job_forms.h"
@@ -24,9 +26,9 @@ PieceNumbers only(const std::vector<Piece>& pieces, const PieceNumbers& numbers)
 }
 
 /// Returns the numbers for `simulation`: of all keys of the rest, it has only one.
-PieceNumbers of_simulation(const Job& job, const PieceNumbers& numbers) {
+PieceNumbers of_simulation(const SharedJob& job, const PieceNumbers& numbers) {
   PieceNumbers some = only({Piece::simulation}, numbers);
-  some[index_of(Piece::rest)] = std::bit_cast<std::uint64_t>(job.simulation.stiffness_factor);
+  some[index_of(Piece::rest)] = std::bit_cast<std::uint64_t>(job.with(Piece::rest).simulation.stiffness_factor);
   return some;
 }
 
@@ -64,12 +66,65 @@ std::optional<Job> job_from_pieces(const std::array<const Job*, piece_count>& pi
       read_fields(*routing, own);
       place_clamps(own, job.robot);
     }
+    check_between_pieces(job.motion, job.robot, own, job);
     job.motion.left_out = plausibility_of_motion(job);
-    check_between_pieces(job);
   } catch (const InputError&) {  // job_from() finds the same problem and places it in the whole document
     return std::nullopt;
   }
   return job;
+}
+
+struct SharedJob::State {
+  std::shared_ptr<const Job> whole;  ///< null: not made yet
+  Lenders lenders;
+  PieceNumbers numbers;
+  std::once_flag made;
+};
+
+SharedJob::SharedJob(std::shared_ptr<const Job> whole, const PieceNumbers& numbers) {
+  if (!whole) return;
+  state_ = std::make_shared<State>();
+  state_->whole = std::move(whole), state_->numbers = numbers;
+}
+
+SharedJob::SharedJob(const Lenders& lenders, const PieceNumbers& numbers) : state_(std::make_shared<State>()) {
+  state_->lenders = lenders, state_->numbers = numbers;
+}
+
+const Job* SharedJob::get() const {
+  if (!state_) return nullptr;
+  std::call_once(state_->made, [&] {
+    if (state_->whole) return;
+    std::array<const Job*, piece_count> pieces;
+    std::ranges::transform(state_->lenders, pieces.begin(), [](const auto& lender) { return lender.get(); });
+    std::optional<Job> job = job_from_pieces(pieces, nullptr);
+    if (!job) throw std::logic_error("pieces of a job do not fit, and did before");
+    state_->whole = std::make_shared<const Job>(*std::move(job));
+  });
+  return state_->whole.get();
+}
+
+SharedJob::operator std::shared_ptr<const Job>() const {
+  get();
+  return state_ ? state_->whole : nullptr;
+}
+
+const Job& SharedJob::with(Piece piece) const {
+  const std::shared_ptr<const Job>& lender = state_->lenders[index_of(piece)];
+  return lender ? *lender : *get();
+}
+
+PieceNumbers SharedJob::numbers() const { return state_ ? state_->numbers : PieceNumbers{}; }
+
+bool pieces_fit(const SharedJob::Lenders& lenders) {
+  const auto of = [&](Piece piece) -> const Job& { return *lenders[index_of(piece)]; };
+  try {
+    check_between_pieces(of(Piece::motion).motion, of(Piece::robot).robot,
+                         of(Piece::routing).dresspacks.front().routing, of(Piece::rest));
+  } catch (const InputError&) {  // job_from() finds the same problem and places it in the whole document
+    return false;
+  }
+  return true;
 }
 
 /// A top-level key of a text, and the pieces on which its value depends; without pieces: of_simulation(). An empty key: all keys.
@@ -77,7 +132,7 @@ struct PieceTexts::Section {
   std::string_view key;
   std::vector<Piece> pieces;
 
-  PieceNumbers numbers(const Job& job, const PieceNumbers& all) const {
+  PieceNumbers numbers(const SharedJob& job, const PieceNumbers& all) const {
     return pieces.empty() ? of_simulation(job, all) : only(pieces, all);
   }
 };
@@ -94,7 +149,7 @@ const PieceTexts::Sections PieceTexts::of_job{
     {"uncertainty", {Piece::rest}}, {"calibration", {Piece::rest}}};
 const PieceTexts::Sections PieceTexts::whole{{"", {Piece::rest}}};
 
-std::optional<std::string> PieceTexts::known(const Job& job, const Sections& sections, std::size_t text,
+std::optional<std::string> PieceTexts::known(const SharedJob& job, const Sections& sections, std::size_t text,
                                              const PieceNumbers& numbers) const {
   if (numbers == PieceNumbers{}) return std::nullopt;
   std::string joined;
@@ -106,7 +161,7 @@ std::optional<std::string> PieceTexts::known(const Job& job, const Sections& sec
   return joined;
 }
 
-void PieceTexts::keep(const Job& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
+void PieceTexts::keep(const SharedJob& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
                       const std::vector<std::pair<std::string, std::string>>& made) {
   constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
   if (numbers == PieceNumbers{}) return;
@@ -120,16 +175,18 @@ void PieceTexts::keep(const Job& job, const Sections& sections, std::size_t text
   }
 }
 
-std::string PieceTexts::part_text(const Job& job, JobPart part, const PieceNumbers& numbers) {
+std::string PieceTexts::part_text(const SharedJob& job, JobPart part) {
+  const PieceNumbers numbers = job.numbers();
   const Sections& sections = part == JobPart::sim ? of_sim : whole;
   const std::size_t text = 100 * static_cast<std::size_t>(part);
   if (std::optional<std::string> same = known(job, sections, text, numbers)) return *std::move(same);
-  const auto made = part_sections(job, part);
+  const auto made = part_sections(*job, part);
   keep(job, sections, text, numbers, made);
   return joined_text(made);
 }
 
-std::string PieceTexts::stored_job_text(const Job& job, const std::string& name, const PieceNumbers& numbers) {
+std::string PieceTexts::stored_job_text(const SharedJob& job, const std::string& name) {
+  const PieceNumbers numbers = job.numbers();
   constexpr std::size_t text = 1000;
   const fs::path folder = around_ / name;
   const bool beside_others = kind_of_name(folder) != FileKind::link;
@@ -137,7 +194,7 @@ std::string PieceTexts::stored_job_text(const Job& job, const std::string& name,
     return *std::move(same);
   bool same_for_others = beside_others;  // the text is the same in every folder beside this one
   const auto made =
-      echo_sections(Describe([copy = job](Fields& f) mutable { describe(f, copy); }), [&](const fs::path& file) {
+      echo_sections(Describe([copy = *job](Fields& f) mutable { describe(f, copy); }), [&](const fs::path& file) {
         fs::path seen = as_seen_from(folder, file);
         same_for_others = same_for_others && seen.native().starts_with("../../");
         return seen.string();
@@ -146,10 +203,11 @@ std::string PieceTexts::stored_job_text(const Job& job, const std::string& name,
   return joined_text(made);
 }
 
-std::vector<fs::path> PieceTexts::files_beside(const Job& job, const PieceNumbers& numbers) {
-  if (numbers == PieceNumbers{}) return pipeline::files_beside(job);
+std::vector<fs::path> PieceTexts::files_beside(const SharedJob& job) {
+  const PieceNumbers numbers = job.numbers();
+  if (numbers == PieceNumbers{}) return pipeline::files_beside(*job);
   const auto [known, is_new] = files_.try_emplace(only({Piece::motion, Piece::robot, Piece::rest}, numbers));
-  if (is_new) known->second = pipeline::files_beside(job);
+  if (is_new) known->second = pipeline::files_beside(*job);
   return known->second;
 }
 

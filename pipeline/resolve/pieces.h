@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,21 +32,52 @@ std::optional<Piece> piece_of(std::string_view path);
 /// Returns whether a job can be divided into pieces: a robot moves one dresspack, and no calibration depends on the motion.
 bool has_pieces(const Job& job);
 
+/// A job, or the jobs from whose pieces it is made when it is used for the first time. Like a shared pointer: copies have one job.
+/// Ten thousand jobs of a study need the memory of the few jobs that lend pieces.
+class SharedJob {
+ public:
+  using Lenders = std::array<std::shared_ptr<const Job>, piece_count>;  ///< (Piece)
+
+  SharedJob(std::nullptr_t = nullptr) {}
+  SharedJob(std::shared_ptr<const Job> whole, const PieceNumbers& numbers = {});
+  /// Precondition: pieces_fit().
+  SharedJob(const Lenders& lenders, const PieceNumbers& numbers);
+
+  const Job* get() const;
+  const Job& operator*() const { return *get(); }
+  const Job* operator->() const { return get(); }
+  operator std::shared_ptr<const Job>() const;
+  explicit operator bool() const { return state_ != nullptr; }
+  bool operator==(const SharedJob&) const = default;
+
+  /// Returns a job with this piece, without making the whole job. Precondition: it is not null.
+  const Job& with(Piece piece) const;
+  PieceNumbers numbers() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+/// Returns whether the pieces of these jobs make a valid job. Preconditions: those of job_from_pieces().
+bool pieces_fit(const SharedJob::Lenders& lenders);
+
 /// Returns the job from the pieces of these jobs, (Piece). routing: a tree with only the key `routing`, which replaces that piece; null:
 /// none. std::nullopt: the pieces do not fit to each other; then job_from() reads the whole job and reports why. Precondition:
 /// job_from() returned the jobs, they have pieces, and their other pieces come from the same base.
 std::optional<Job> job_from_pieces(const std::array<const Job*, piece_count>& pieces, const Node* routing);
 
-/// Texts of jobs, kept by the numbers of their pieces. The functions return what those of job_text.h return.
+/// Texts of jobs, kept by the numbers of their pieces. The functions return what those of job_text.h return. Precondition: no
+/// job is null.
 class PieceTexts {
  public:
   /// around: folder that contains the folders of the jobs, for stored_job_text().
   explicit PieceTexts(std::filesystem::path around = {}) : around_(std::move(around)) {}
 
-  std::string part_text(const Job& job, JobPart part, const PieceNumbers& numbers);
+  std::string part_text(const SharedJob& job, JobPart part);
   /// name: of the job's folder.
-  std::string stored_job_text(const Job& job, const std::string& name, const PieceNumbers& numbers);
-  std::vector<std::filesystem::path> files_beside(const Job& job, const PieceNumbers& numbers);
+  std::string stored_job_text(const SharedJob& job, const std::string& name);
+  std::vector<std::filesystem::path> files_beside(const SharedJob& job);
 
  private:
   struct Section;
@@ -53,9 +85,9 @@ class PieceTexts {
   static const Sections of_sim, of_job, whole;
 
   /// Returns the text from its kept sections; std::nullopt if one is not known.
-  std::optional<std::string> known(const Job& job, const Sections& sections, std::size_t text,
+  std::optional<std::string> known(const SharedJob& job, const Sections& sections, std::size_t text,
                                    const PieceNumbers& numbers) const;
-  void keep(const Job& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
+  void keep(const SharedJob& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
             const std::vector<std::pair<std::string, std::string>>& made);
 
   /// (index of the section in a text, numbers of the pieces on which it depends)

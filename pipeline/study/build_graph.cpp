@@ -70,10 +70,10 @@ Programs found_programs(const StudyPlaces& places) {
 /// texts of the settings take almost all the time and are made without it.
 void set_recipes(JobState& state, const StudyJob& job, const Programs& programs, PieceTexts& texts, Digests& digests,
                  std::mutex& held) {
-  const std::vector<fs::path> files = texts.files_beside(*job.job, job.pieces());
+  const std::vector<fs::path> files = texts.files_beside(job.job);
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
-    const std::string text = texts.part_text(*job.job, stages[k].part, job.pieces());
+    const std::string text = texts.part_text(job.job, stages[k].part);
     const std::lock_guard lock(held);
     state.recipes[k] =
         recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{}, programs[k], digests);
@@ -483,8 +483,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
     if (!states[k].done()) make_notes(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml",
-                          with_mark(texts.stored_job_text(*job.job, job.name, job.pieces()), Mark::yaml), Sync::never);
+    write_text_if_changed(folder / "job.yaml", with_mark(texts.stored_job_text(job.job, job.name), Mark::yaml),
+                          Sync::never);
     if (states[k].done()) return;
     if (!is_new) {
       check_notes(folder / ".stage");

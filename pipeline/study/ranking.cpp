@@ -365,7 +365,7 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
   for (RankingRow& row : rows) {
     const auto job = jobs.find(row.job);
     if (job == jobs.end()) continue;
-    if (job->second->job) row.held_joint = job->second->job->motion.hold_joint;
+    if (job->second->job) row.held_joint = job->second->job.with(Piece::motion).motion.hold_joint;
     if (job->second->values.size() != study.varied.size()) continue;
     for (std::size_t k = 0; k < study.varied.size(); ++k)
       row.varied.emplace_back(study.varied[k], job->second->values[k]);

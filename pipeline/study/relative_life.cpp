@@ -176,7 +176,7 @@ RatedStudy rated_study(const Study& study) {
   if (study.keep == Keep::lives)
     return maker.take();  // a relative life needs the damage of every place, which only life.h5 contains
   for (const StudyJob& job : study.jobs)
-    if (job.failure.empty() && job.job && has_ratings(*job.job)) maker.add(job);
+    if (job.failure.empty() && job.job && has_ratings(job.job.with(Piece::rest))) maker.add(job);
   return maker.take();
 }
 

@@ -218,30 +218,35 @@ std::optional<Node> routing_of(const Node& base, const std::vector<Change>& chan
 }
 
 /// Returns the job of these changes from known pieces; null: it must be read as a whole.
-std::shared_ptr<const Job> from_known(const KnownPieces& known, const PieceTextsOfChanges& texts, const Node& base,
-                                      const std::vector<Change>& changes, const std::vector<std::string>& sets) {
-  std::array<const Job*, piece_count> pieces{};
+SharedJob from_known(const KnownPieces& known, const PieceTextsOfChanges& texts, const Node& base,
+                     const std::vector<Change>& changes, const std::vector<std::string>& sets) {
+  SharedJob::Lenders lenders;
+  PieceNumbers numbers{};
   for (std::size_t k = 0; k < piece_count; ++k)
     if (const auto found = known[k].find(texts[k]); found != known[k].end())
-      pieces[k] = found->second.job.get();
+      lenders[k] = found->second.job, numbers[k] = found->second.number;
     else if (k != index_of(Piece::routing))
       return nullptr;
-  std::optional<Node> routing;
-  if (!pieces[index_of(Piece::routing)] && !(routing = routing_of(base, changes, sets))) return nullptr;
-  std::optional<Job> job = job_from_pieces(pieces, routing ? &*routing : nullptr);
+  if (lenders[index_of(Piece::routing)]) return pieces_fit(lenders) ? SharedJob(lenders, numbers) : nullptr;
+  const std::optional<Node> routing = routing_of(base, changes, sets);
+  if (!routing) return nullptr;
+  std::array<const Job*, piece_count> pieces;
+  std::ranges::transform(lenders, pieces.begin(), [](const auto& lender) { return lender.get(); });
+  std::optional<Job> job = job_from_pieces(pieces, &*routing);
   return job ? std::make_shared<const Job>(*std::move(job)) : nullptr;
 }
 
-/// Notes the pieces of a job.
-void note_pieces(StudyJob& made, PieceTextsOfChanges texts, KnownPieces& known) {
+/// Returns a whole job with the numbers of its pieces, and notes those that are new.
+SharedJob numbered(std::shared_ptr<const Job> job, PieceTextsOfChanges texts, KnownPieces& known) {
   static std::atomic<std::size_t> last = 0;
-  if (!has_pieces(*made.job)) return;
+  if (!has_pieces(*job)) return job;
+  PieceNumbers numbers;
   for (std::size_t k = 0; k < piece_count; ++k) {
     const auto [piece, is_new] = known[k].try_emplace(std::move(texts[k]));
-    if (is_new) piece->second = {made.job, ++last};
-    made.numbers[k] = piece->second.number;
+    if (is_new) piece->second = {job, ++last};
+    numbers[k] = piece->second.number;
   }
-  made.divided = made.job;
+  return {std::move(job), numbers};
 }
 
 StudyJob make_job(const Node& base, const std::string& name, const Variant& variant,
@@ -261,7 +266,7 @@ StudyJob make_job(const Node& base, const std::string& name, const Variant& vari
     std::optional<PieceTextsOfChanges> texts = changes_of_pieces(changes);
     if (texts) made.job = from_known(known, *texts, base, changes, sets);
     if (!made.job) made.job = std::make_shared<const Job>(changed_job(base, changes, sets));
-    if (texts) note_pieces(made, *std::move(texts), known);
+    if (texts && made.job.numbers() == PieceNumbers{}) made.job = numbered(made.job, *std::move(texts), known);
   } catch (const InputError& problem) {
     made.failure = problem.what();
   }

@@ -29,13 +29,9 @@ struct Job;
 
 struct StudyJob {
   std::string name;                   ///< unique in the study, fit for a folder
-  std::shared_ptr<const Job> job;     ///< only of a valid job in an expanded study
+  SharedJob job;                      ///< only of a valid job
   std::string failure;                ///< reasons why the job is invalid, one line per problem; empty: it is valid
   std::vector<std::string> values{};  ///< (varied) values of the varied keys, as in the name
-  /// Numbers of the pieces of `divided`, which are those of `job` while both are the same object.
-  PieceNumbers numbers{};
-  std::shared_ptr<const Job> divided{};
-  PieceNumbers pieces() const { return divided == job ? numbers : PieceNumbers{}; }
 };
 
 /// Files of a finished job that stay on the disk.

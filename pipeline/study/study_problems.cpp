@@ -56,7 +56,7 @@ void refuse_without_wires(const Where& where, const std::string& job) {
 
 void require_wires(const Study& study, const Where& where) {
   for (const StudyJob& job : study.jobs)
-    if (job.job && std::ranges::none_of(job.job->dresspacks,
+    if (job.job && std::ranges::none_of(job.job.with(Piece::rest).dresspacks,
                                         [](const MountedDresspack& mounted) { return has_wires(mounted.dresspack); }))
       refuse_without_wires(where, job.name);
 }

@@ -85,7 +85,7 @@ std::map<const Job*, std::size_t> sections_of(const DutyFile& file, const Jobs& 
     for (const DutyProgram& program : duty.programs)
       if (const StudyJob* const of = jobs.find(program.job); of && !numbers.contains(of->job.get())) {
         const Job* const job = of->job.get();
-        PieceNumbers pieces = of->pieces();
+        PieceNumbers pieces = of->job.numbers();
         pieces[index_of(Piece::motion)] = 0;
         if (const auto same = known.find(pieces); pieces != PieceNumbers{} && same != known.end()) {
           numbers[job] = same->second;

@@ -295,10 +295,9 @@ TEST_CASE("study: jobs from pieces of other jobs are those that are read alone, 
     CHECK(job_text(*mine.job) == job_text(*his.job));
     CHECK(mine.job->motion.left_out == his.job->motion.left_out);
     for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
-      CHECK(texts.part_text(*mine.job, part, mine.pieces()) == part_text(*his.job, part));
-    CHECK(texts.stored_job_text(*mine.job, mine.name, mine.pieces()) ==
-          stored_job_text(*his.job, scratch / "runs" / mine.name));
-    dresspacks.insert(mine.pieces()[index_of(Piece::rest)]);
+      CHECK(texts.part_text(mine.job, part) == part_text(*his.job, part));
+    CHECK(texts.stored_job_text(mine.job, mine.name) == stored_job_text(*his.job, scratch / "runs" / mine.name));
+    dresspacks.insert(mine.job.numbers()[index_of(Piece::rest)]);
   }
   CHECK(refused >= count / 2);
   CHECK(refused < count);
@@ -332,19 +331,21 @@ TEST_CASE("study: a changed copy of a job has no pieces, and a file in the study
                                          "  dresspack.friction_coefficient: [0.2, 0.3]\n"));
   StudyJob& job = study.jobs.at(0);
   REQUIRE(job.job);
-  CHECK(job.pieces() != PieceNumbers{});
+  CHECK(job.job.numbers() != PieceNumbers{});
   Job changed = *job.job;
   changed.motion.program = scratch / "runs/study/a/weld.csv";
   PieceTexts texts(scratch / "runs/study");
-  const PieceNumbers numbers = job.pieces();
+  const PieceNumbers numbers = job.job.numbers();
   fs::create_directory_symlink(scratch.folder(), scratch / "runs/study/link");
   for (const char* name : {"a", "b", "link"}) {
-    CHECK(texts.stored_job_text(changed, name, numbers) == stored_job_text(changed, scratch / "runs/study" / name));
+    CHECK(texts.stored_job_text({std::make_shared<const Job>(changed), numbers}, name) ==
+          stored_job_text(changed, scratch / "runs/study" / name));
     changed.motion.program = name == std::string("b") ? scratch / "elsewhere/weld.csv" : changed.motion.program;
   }
-  CHECK(texts.stored_job_text(changed, "c", numbers) == stored_job_text(changed, scratch / "runs/study/c"));
+  CHECK(texts.stored_job_text({std::make_shared<const Job>(changed), numbers}, "c") ==
+        stored_job_text(changed, scratch / "runs/study/c"));
   job.job = std::make_shared<const Job>(changed);
-  CHECK(job.pieces() == PieceNumbers{});
+  CHECK(job.job.numbers() == PieceNumbers{});
 }
 
 }  // namespace
