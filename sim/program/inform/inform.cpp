@@ -1,6 +1,7 @@
 #include "sim/program/inform/inform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -317,10 +318,13 @@ class Inform final : public Dialect {
     if (by_b) made.numbers[0] += 2;
     if (!rule && !flip_reported_) {
       flip_reported_ = true;
+      constexpr std::array<const char*, 2> meanings{"axis R within 90 deg of its zero, as on an NX100",
+                                                    "the sign of axis B, as on a YRC1000"};
+      constexpr std::array<const char*, 2> answers{"R", "B"};
       run_->note(place,
-                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
-                             "'rconf_flip=\"{}\"' if it is the other",
-                             by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
+                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ. If so, --value "
+                             "'rconf_flip=\"{}\"' confirms it; if it is {}, give --value 'rconf_flip=\"{}\"'",
+                             meanings[by_b], answers[by_b], meanings[!by_b], answers[!by_b]),
                  true);
     }
     return made;

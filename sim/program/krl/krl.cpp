@@ -134,7 +134,7 @@ void Krl::ask_for_place_before(const Expression& written, bool axes) {
       run_->options().flange
           ? "move to a pose with X, Y, Z, A, B, C before"
           : "move to a pose with X, Y, Z, A, B, C before, name the program in a job, whose robot of six "
-            "axes gives them (dresslife check JOB.yaml)",
+            "axes gives them",
       "");
 }
 

@@ -281,9 +281,12 @@ TEST_CASE("inform: RCONF says which arm, the meaning of its first number is repo
   const Reading newer = run(three, "MOVJ C00000 VJ=9\n");
   CHECK(newer.move(0).target.configuration.text() == "motoman 3 0 0 0 0 0");
   CHECK(skips(newer, "taken as the sign of axis B", true));
+  for (const char* answer : {"\"B\"", "\"R\""}) {  // the note names both, and each ends it
+    CHECK(skips(newer, "--value 'rconf_flip=" + std::string(answer) + "'", true));
+    CHECK(!skips(run(three, "MOVJ C00000 VJ=9\n", given({{"rconf_flip", answer}})), "RCONF", true));
+  }
   const Reading told = run(three, "MOVJ C00000 VJ=9\n", given({{"rconf_flip", "\"R\""}}));
   CHECK(told.move(0).target.configuration.text() == "motoman 1 0 0 0 0 0");
-  CHECK(!skips(told, "RCONF", true));
   CHECK(arm_configuration("motoman 3 0 0 0 0 0").value() == newer.move(0).target.configuration);
   CHECK(!arm_configuration("motoman 3 0 0"));
 }
