@@ -108,12 +108,11 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     check.warnings =
         located(joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings"))), document);
     for (std::string& words : length_words(preview_file)) check.notes.push_back(std::move(words));
-    check.ran = check.refusal.empty();
+    const std::string followed = preview.text_attribute("short_run");
+    check.ran = check.refusal.empty() && followed == "whole";
+    if (followed == "none") check.limits = "The motion of the dresspack was not checked (see the note).";
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) {
-      if (note.starts_with("The short run of the checks")) check.ran = false;
-      if (note.starts_with("The short run of the checks was left out"))
-        check.limits = "The motion of the dresspack was not checked (see the note).";
       if (note.starts_with("ESTIMATE"))
         check.estimates.push_back(note);
       else

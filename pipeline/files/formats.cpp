@@ -572,6 +572,7 @@ Format make_preview_format() {
      "warnings of geometry, statics and a short run, one per line: kind, place, words and each KEY: VALUE of the remedy, "
      "separated by tabs"},
     {"notes", text, maybe, "several shapes at rest, one per line"},
+    {"short_run", text, always, "how much of the program the short run of the checks followed: whole, begin or none"},
   });
   return format;
 }

@@ -116,6 +116,7 @@ class Previewer {
     quick.warnings = pipeline::joined(std::move(quick.warnings), clamp_warnings(job_, space));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
+    file.attribute("short_run", std::string(word(quick.followed)));
     file.attribute("notes", pipeline::joined(quick.notes, "\n"));
   }
 

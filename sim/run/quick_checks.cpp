@@ -80,6 +80,7 @@ class QuickChecks {
         (robot_ && robot_->clamps_in_world()) ||
         (!one_link.empty() && std::ranges::any_of(found.checks, &Check::warning))) {
       found.checks.clear();
+      found.followed = Followed::none;
       found.notes.push_back(
           "The short run of the checks was left out. Correct the clamps first: the other limits follow from them");
       return found;
@@ -87,6 +88,7 @@ class QuickChecks {
     if (std::ranges::any_of(found.checks, [](const Check& check) {
           return check.name == check_name::too_long && check.value > 2 * check.limit;
         })) {
+      found.followed = Followed::none;
       found.notes.push_back(
           "The short run of the checks was left out, because the hose is far too long. Correct the length first");
       return found;
@@ -94,11 +96,13 @@ class QuickChecks {
     found.run = short_run(setup_, short_run_segments);
     add_rests(found, true);
     add_run(found);
-    if (found.run.stopped_at)
+    if (found.run.stopped_at) {
+      found.followed = Followed::begin;
       found.notes.push_back(
           fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
                       "or the dresspack touches much. `dresslife run` checks all of it",
                       *found.run.stopped_at, path_->program_duration()));
+    }
     add_rubbing(found.run, found.notes);
     if (found.run.refusal.empty() && !found.run.stopped_at) {
       pipeline::Setup few = with_segments(setup_, short_run_segments);
@@ -159,7 +163,8 @@ class QuickChecks {
         }))
       found.notes.push_back(
           "Correct the doubtful numbers first: the limits that the dresspack passes may follow from them");
-    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes), std::move(found.run)};
+    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes), std::move(found.run),
+            found.followed};
   }
 
  private:

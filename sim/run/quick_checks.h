@@ -11,9 +11,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/base/words.h"
 #include "sim/contact/rubbing.h"
 #include "sim/run/checks.h"
 #include "sim/run/longest_way.h"
@@ -51,12 +53,17 @@ inline constexpr int rest_segments = 32, short_run_segments = 64;
 /// limit.
 ShortRun short_run(pipeline::Setup setup, int segments, double useless_below = 0, int of = 0);
 
+/// How much of the program the short run of the checks followed.
+enum class Followed { whole, begin, none };
+constexpr std::string_view word(Followed value) { return pipeline::word_at({"whole", "begin", "none"}, value); }
+
 struct QuickFindings {
   /// checks with limits: at rest, except "smallest bend radius" and "largest tension", which come from the short run
   std::vector<Check> checks;
   std::vector<pipeline::Warning> others;  ///< warnings that no other routing between these links cures
   std::vector<std::string> notes;         ///< notes about several shapes at rest
   ShortRun run;
+  Followed followed = Followed::whole;
 };
 
 /// Returns the findings. Errors: InputError for a motion that the robot cannot run.
@@ -72,6 +79,7 @@ struct QuickWarnings {
   std::vector<pipeline::Warning> warnings;
   std::vector<std::string> notes;
   ShortRun run;  ///< without checks if it was left out
+  Followed followed = Followed::whole;
 };
 /// longest: longest_ways() with setup.simulation.time_step; empty: they are computed. other_places: see cures.h.
 QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest = {},
