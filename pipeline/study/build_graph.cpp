@@ -224,7 +224,7 @@ std::string changed_since(const Receipt& receipt, const fs::path& folder, const 
     if (was == digests.end()) return name + " came beside the program";
     if (was->second != digest) return name + " has changed";
   }
-  return "a file that the program reads was removed";
+  return "job.yaml, or a file that the program reads, has changed or was removed";
 }
 
 /// Returns the reason why a job is not done after a run.

@@ -142,6 +142,12 @@ std::string round_csv(const std::vector<JointCourse>& programs, const std::vecto
   return recording.text();
 }
 
+void evaluate_at_medians(Job& job) {
+  job.uncertainty.enabled = false;
+  job.uncertainty.ratings = KnownRatings::none;
+  job.calibration.reset();
+}
+
 Study study_of_rounds(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
                       const std::filesystem::path& folder) {
   Study rounds{study.name, {}, study.keep};
@@ -167,7 +173,7 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     motion.rows = RecordedRows::spline;
     write_text_if_changed(motion.program, with_mark(round_csv(courses, axes), Mark::yaml));
     job.motion = std::move(motion);
-    job.uncertainty.enabled = false;
+    evaluate_at_medians(job);
     rounds.jobs.push_back({name, std::make_shared<const Job>(std::move(job)), ""});
   }
   return rounds;

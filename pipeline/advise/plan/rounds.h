@@ -43,6 +43,10 @@ std::vector<double> repeats_in_rounds(const Duty& duty, const std::vector<double
 /// joints. Precondition: each course has two samples or more.
 std::string round_csv(const std::vector<JointCourse>& programs, const std::vector<Joint>& axes);
 
+/// Leaves the job without uncertain parameters. Medians that a calibration or makers' ratings put into its keys stay. The stages
+/// would take them back together with a calibration that has no effect.
+void evaluate_at_medians(Job& job);
+
 /// Returns the jobs of all rounds, each once. Writes their motions to this folder, from the results of the programs.
 /// Errors: InputError for programs without joint angles in their results, and for external axes.
 Study study_of_rounds(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/document.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -123,4 +125,17 @@ TEST_CASE("between programs all axes move together, within their shares of speed
   CHECK(most <= 1 + 1e-3);                            // differences of rounded angles
   CHECK(most > 0.9);                                  // whole intervals make the move slower by up to a tenth
   CHECK(rows.back()[1] == Approx(0).margin(digits));  // the motion returns to the first program
+}
+
+TEST_CASE("the job of a round keeps the medians of makers' ratings when the stages read it again") {
+  Job job = job_from(
+      parse_yaml("motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}\ndresspack: {cable: control_cable}",
+                 "job.yaml"));
+  REQUIRE(job.calibration);
+  const double strength = job.fatigue.strength_factor;
+  REQUIRE(strength > 1);
+  evaluate_at_medians(job);
+  const Job again = job_from(parse_yaml(job_text(job), "again.yaml"));
+  CHECK(again.fatigue.strength_factor == strength);
+  CHECK(job_text(again) == job_text(job));
 }
