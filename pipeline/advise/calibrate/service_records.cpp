@@ -67,8 +67,9 @@ enum class End { failed, removed, in_use };
 /// letters that are not ASCII.
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
-  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht", "ohne",
-                        "sinfall", "sindefect", "sinrotura", "sinaver", "noroto"}))
+  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect",  "notbroke",  "nobreak",   "kein",
+                        "nicht",   "ohne",   "kabelio",   "inordnung", "cableok",   "verhinder", "vermied",
+                        "avoid",   "evitad", "sinfall",   "sindefect", "sinrotura", "sinaver",   "noroto"}))
     return std::nullopt;
   if ((has_any(letters,
                {"fail",       "broke",    "break",     "defect",    "fault",       "unplanned",    "unscheduled",

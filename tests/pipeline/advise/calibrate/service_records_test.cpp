@@ -194,7 +194,8 @@ TEST_CASE("service records: reasons in German, and reasons that two readings exp
     CHECK_FALSE(of(removed).tests.front().observation.service.front().failed);
   // Unclear reasons: a cable broken by a crash, a cable that did not break, worn with or without failure.
   for (const char* unclear :
-       {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Verschleiß", "getauscht"})
+       {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Kabel i.O., Zange defekt",
+        "Kabelbruch verhindert", "cable ok, gun defect", "Verschleiß", "getauscht"})
     CHECK_THAT(refusal("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + std::string(unclear) + "\n"),
                Contains("does not say whether the dresspack failed"));
 }
