@@ -136,7 +136,8 @@ TEST_CASE("calibrate: a bending test with 5 % of noise gives the friction, at 1.
       "observations:\n" +
           row("bend", "    bending: bend.csv\n",
               "{dresspack: {cable: {from: spot_welding, part: signal cable}}, strain: {slip: [free, friction, friction]}}"));
-  must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  const Outcome bent = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  CHECK(unwrapped(bent.out + bent.err).find("does not reproduce") == std::string::npos);
   const std::string file = content(scratch / "runs/calibrate_o/calibration.yaml");
   const double friction = learned(file, "friction_inside", "value");
   CHECK(friction > 1.6 / 1.3);
@@ -144,6 +145,16 @@ TEST_CASE("calibrate: a bending test with 5 % of noise gives the friction, at 1.
   CHECK(learned(file, "friction_inside", "value_p10") < 1.6);
   CHECK(learned(file, "friction_inside", "value_p90") > 1.6);
   CHECK(file.find("name: strength") == std::string::npos);
+
+  // A curve that turns as no model of friction does has a warning, also in the jobs that use the calibration.
+  table = "curvature_1_per_m,moment_Nm\n";
+  for (double k = 0.1; k < 1.55; k += 0.1) add(k, first(1.5));
+  for (double k = 1.4; k > -0.05; k -= 0.1) add(k, first(1.5));
+  scratch.write("bend.csv", table);
+  const Outcome odd = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
+  CHECK(unwrapped(odd.out + odd.err).find("'bend': the model does not reproduce this row") != std::string::npos);
+  CHECK(content(scratch / "runs/calibrate_o/calibration.yaml").find("the model does not reproduce") !=
+        std::string::npos);
 
   // A decay test of this cable gives the same information, but less of it: its loss depends less on friction.
   const double decrement = std::exp(log_decrement_by_slip(curvature, moment, 1)) + 0.03;

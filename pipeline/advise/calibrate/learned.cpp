@@ -176,6 +176,32 @@ std::string doubt_of(const LearnedTest& test, double surprising) {
   return "";
 }
 
+std::string misfit_of(const LearnedTest& test) {
+  constexpr double most = 3;  // standard deviations
+  const Observation& observation = test.observation;
+  const bool is_life = observation.is_life();
+  if (is_life ? surprise(test, test.after) <= most : test.misfit <= test.usual_misfit) return "";
+  const bool is_curve = !observation.bending.empty();
+  std::string text = fmt::format(
+      "'{}': the model does not reproduce this row after it learned from it: observed {}, predicted after {}",
+      observation.name,
+      is_curve ? "a largest moment of " + readable(test.measured, 3) + " N m" : observed_text(observation),
+      words_of(test.after));
+  if (!is_life)
+    text += fmt::format("; {} by {} times its noise_percent (limit {})",
+                        is_curve ? "its moments differ (root mean square)" : "they differ", readable(test.misfit, 2),
+                        readable(test.usual_misfit, 2));
+  if (is_curve)
+    return text +
+           ". Likely cause: a curve of another shape than the model's (another construction, a jacket that creeps, play of the "
+           "clamps), wrong units, or a noise_percent that is too small. Remedy: give the moment over the curvature at the largest "
+           "curvature as a row with stiffness_Nm2 and at_curvature_1_per_m instead of the curve, or correct the curve; do not use "
+           "the ranges of this calibration";
+  return text +
+         ". Likely cause: rows that contradict each other, wrong units or another construction. Remedy: correct them or leave the "
+         "wrong row out; do not use this calibration";
+}
+
 void add_doubts(Learned& learned, const Axes& axes) {
   constexpr double surprising = 2, skewed = 0.3;  // standard deviations
   for (const LearnedTest& test : learned.tests) {

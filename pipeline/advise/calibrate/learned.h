@@ -28,7 +28,8 @@ struct LearnedTest {
   ServiceChance chance_before{}, chance_after{};  ///< for dresspacks in service
   ServiceFit fit{};                               ///< for dresspacks in service
   double measured = 0;                            ///< measured value; 0 for a life
-  std::string fails_first{}, moved_by{};          ///< from EmulatedTest
+  double misfit = 0, usual_misfit = 0;    ///< of a bending test after the calibration (prediction.h); 0 for a life
+  std::string fails_first{}, moved_by{};  ///< from EmulatedTest
 };
 
 struct Learned {
@@ -57,6 +58,9 @@ double surprise_by_others(const LearnedTest& test);
 /// Returns the doubt of an observation that is more than `surprising` standard deviations from its prediction, without it or by the
 /// others; empty: none.
 std::string doubt_of(const LearnedTest& test, double surprising);
+/// Returns the warning of a row that the model does not reproduce even after it learned from it: a bending test beyond usual_misfit,
+/// a life beyond three standard deviations of its prediction (1 of 370); empty: it does.
+std::string misfit_of(const LearnedTest& test);
 /// Adds notes on the limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
 

@@ -156,12 +156,15 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       learned.tests[t].fails_first = emulated.fails_first;
       learned.tests[t].moved_by = emulated.moved_by;
       if (!emulated.life)
+        learned.tests[t].misfit = least_misfit(emulated, drawn), learned.tests[t].usual_misfit = usual_misfit(emulated),
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }
     refuse_contradiction(tests, learned.tests, axes, learned.posterior.laplace.most_likely);
     centre = there;
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.warnings = spoiled_records(tests, round, rows);
+    for (const LearnedTest& test : learned.tests)
+      if (const std::string misfit = misfit_of(test); !misfit.empty()) learned.warnings.push_back(misfit);
     learned.axes = learned_axes(learned.posterior, axes);
     predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, typical, learned.tests);
     learned.walls = learned_walls(emulated_tests);

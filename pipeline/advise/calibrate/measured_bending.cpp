@@ -129,16 +129,14 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
 }
 
 BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise) {
-  // All readings of a loop share the errors of its scale, its grips and the model's shape, so more readings do not make the result
-  // ever more certain. Ten are two or three per branch of a loop.
-  constexpr double most_independent = 10;
+  // The error of an instrument is a share of its range. A share of each moment would give points near zero most of the weight.
   const double most = largest_of(points, 0.0, [](const BendingPoint& point) { return std::abs(point.moment); });
   BendingNumbers made;
   std::map<double, std::size_t> places;
   Path path;
   for (const BendingPoint& point : points) {
     const Sum sum = path.next(point.curvature);
-    MeasuredNumber number{point.moment, noise * std::max(std::abs(point.moment), most / 10), {}};
+    MeasuredNumber number{point.moment, noise * most, {}};
     for (const auto& [curvature, factor] : sum) {
       const auto [place, fresh] = places.try_emplace(curvature, made.curvatures.size());
       if (fresh) made.curvatures.push_back(curvature);
@@ -146,7 +144,7 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
     }
     if (!number.parts.empty()) made.numbers.push_back(std::move(number));
   }
-  const double share = static_cast<double>(made.numbers.size()) / most_independent;
+  const double share = static_cast<double>(made.numbers.size()) / most_independent_moments;
   if (share > 1)
     for (MeasuredNumber& number : made.numbers) number.deviation *= std::sqrt(share);
   return made;

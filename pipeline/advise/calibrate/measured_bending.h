@@ -27,8 +27,12 @@ struct BendingPoint {
 /// Errors: InputError at the line.
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file);
 
-/// Returns the points as sums of M1 at curvatures > 0 [1/m]. noise: relative error of a moment; the error is at least a tenth of
-/// that of the largest moment. More than ten points together count as ten independent ones.
+/// All readings of a loop share the errors of its scale, its grips and the model's shape, so more readings do not make the result
+/// ever more certain. Ten are two or three per branch of a loop.
+inline constexpr double most_independent_moments = 10;
+
+/// Returns the points as sums of M1 at curvatures > 0 [1/m]. noise: error of each moment over the largest moment. More points than
+/// most_independent_moments together count as so many.
 struct BendingNumbers {
   std::vector<double> curvatures;
   std::vector<MeasuredNumber> numbers;

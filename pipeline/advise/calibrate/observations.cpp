@@ -51,7 +51,8 @@ void describe(Fields& f, Observation& observation) {
       "replaces a life.");
   f.number(
       "noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
-      "The standard deviation of a measured moment, stiffness or decrement. A curve counts as at most ten independent moments.");
+      "The standard deviation of a measured moment, stiffness or decrement. Of a curve: that of each moment, in percent of the "
+      "largest one. A curve counts as at most ten independent moments.");
   f.number(
       "cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
       "The number of cycles that the observer counts in one repeat of the job's motion: 2 if single strokes are counted.");

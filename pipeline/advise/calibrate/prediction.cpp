@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipeline/advise/calibrate/life_over_parameters.h"
+#include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/own_spread.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
@@ -63,6 +64,29 @@ PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::Matrix
     values.push_back(said_by_model(variant, variant.numbers[test.shown], draws.row(k).transpose()) / test.per_shown);
   }
   return quantiles(values);
+}
+
+namespace {
+
+/// Returns how many independent numbers the measured ones are worth.
+double independent_numbers(const EmulatedTest& test) {
+  return std::min(static_cast<double>(test.bending.front().numbers.size()), most_independent_moments);
+}
+
+}  // namespace
+
+double least_misfit(const EmulatedTest& test, const Eigen::MatrixXd& draws) {
+  double best = -HUGE_VAL;
+  for (Index k = 0; k < draws.rows(); ++k)
+    for (const Measurement& variant : test.bending)
+      best = std::max(best, log_likelihood(variant, draws.row(k).transpose()));
+  return std::sqrt(-2 * best / independent_numbers(test));
+}
+
+double usual_misfit(const EmulatedTest& test) {
+  constexpr double deviations = 2.78;                       // one side of a normal distribution beyond it: 1 of 370
+  const double part = 2 / (9 * independent_numbers(test));  // Wilson and Hilferty's quantile of chi^2
+  return std::pow(1 - part + deviations * std::sqrt(part), 1.5);
 }
 
 ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records,

@@ -24,6 +24,13 @@ Eigen::MatrixXd with_one_spread(Eigen::MatrixXd draws);
 /// in each sample; else equally.
 PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::MatrixXd& draws, bool weighed);
 
+/// Returns the deviation between the measured numbers of a bending test and the sample and variant that fit them best: root mean
+/// square, in standard deviations of their noise.
+double least_misfit(const EmulatedTest& test, const Eigen::MatrixXd& draws);
+/// Returns the value that least_misfit of correct measurements exceeds as rarely as one number exceeds three standard deviations
+/// (1 of 370).
+double usual_misfit(const EmulatedTest& test);
+
 /// Probability of the records of dresspacks in service, means over samples. The number of failures has a Poisson distribution
 /// with the mean sum of ln S(e) - ln S(x), of (P5).
 struct ServiceChance {

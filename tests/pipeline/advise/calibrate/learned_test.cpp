@@ -364,6 +364,37 @@ TEST_CASE("learned: a row that only the other rows contradict has a note") {
   CHECK(notes[0].find("'flex' contradicts the other observations, which predict 1,000 (2,000, 8,000)") == 0);
 }
 
+TEST_CASE("learned: a row that the model does not reproduce after it learned from it has a warning") {
+  EmulatedTest curve;
+  Measurement& measured = curve.bending.emplace_back();
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+  measured.log_quantities.emplace_back(0 * one, one, 0, -one, one);  // ln of the quantity is z
+  const auto misfit_at = [&](std::size_t points, double off) {
+    measured.numbers.assign(points, {1 + off, 0.1, {{0, 1.0}}});
+    return least_misfit(curve, Eigen::Vector2d(0, -1));  // the first sample is nearer
+  };
+  CHECK(misfit_at(1, 0.2) == Approx(2));
+  CHECK(usual_misfit(curve) == Approx(3).epsilon(0.02));
+  CHECK(misfit_at(10, -0.2) == Approx(2));
+  CHECK(usual_misfit(curve) == Approx(std::sqrt(2.69)).epsilon(0.02));  // chi^2 of ten numbers: 26.9 for 1 of 370
+  LearnedTest test;
+  test.observation.name = "loop", test.observation.bending = "loop.csv";
+  test.measured = 0.037, test.after = {0.027, 0.028, 0.03};
+  test.misfit = 1.6, test.usual_misfit = 1.64;
+  CHECK(misfit_of(test).empty());
+  test.misfit = 3.5;
+  CHECK_THAT(misfit_of(test), Catch::Contains("'loop'") && Catch::Contains("observed a largest moment of 0.0370 N m") &&
+                                  Catch::Contains("by 3.5 times its noise_percent (limit 1.6)") &&
+                                  Catch::Contains("instead of the curve"));
+  LearnedTest life;
+  life.observation.name = "flex", life.observation.hours = 100, life.observation.outcome = ObservedEnd::broken;
+  for (const double deviations : {2.9, 3.1}) {  // the lower decile is half of the middle
+    life.after[1] = 100 * std::pow(2, deviations / normal_decile);
+    life.after[0] = life.after[1] / 2, life.after[2] = 2 * life.after[1];
+    CHECK(misfit_of(life).empty() == (deviations < 3));
+  }
+}
+
 TEST_CASE("learned: runs repeat the doubt of an observation that is farther off than 1 of 100") {
   LearnedTest test;
   test.observation.name = "flex";
