@@ -36,10 +36,6 @@ void add_slip(const Job& job, std::vector<std::string>& notes) {
     }
 }
 
-std::string estimate_line(const std::string& dresspack, const std::string& estimates) {
-  return fmt::format("ESTIMATE, not in the dresspack{}{}: {}", dresspack.empty() ? "" : " ", dresspack, estimates);
-}
-
 /// Returns whether a place lies in the shipped catalogue, which users do not edit.
 bool is_shipped(const Where& where) {
   const std::filesystem::path catalogue = shipped_catalogue();
@@ -70,6 +66,10 @@ std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file, c
 }
 
 }  // namespace
+
+std::string estimate_line(const std::string& dresspack, const std::string& estimates) {
+  return fmt::format("ESTIMATE, not in the dresspack{}{}: {}", dresspack.empty() ? "" : " ", dresspack, estimates);
+}
 
 JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets,
                   const std::filesystem::path& preview_file) {

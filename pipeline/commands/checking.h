@@ -30,6 +30,9 @@ JobCheck check_of(const std::filesystem::path& job, const std::vector<std::strin
 /// hose, loose cables would take minutes. Precondition: `check` is of this job.
 void add_cable_warnings(JobCheck& check, const std::filesystem::path& job, const std::vector<std::string>& sets);
 
+/// Returns "ESTIMATE, not in the dresspack NAME: ..." for Dresspack::estimates. dresspack: name among several; empty: the only one.
+std::string estimate_line(const std::string& dresspack, const std::string& estimates);
+
 /// Prints the warnings, notes and the refusal.
 void print_check(const JobCheck& check);
 

@@ -4,6 +4,7 @@
 
 #include "pipeline/base/ownership.h"
 #include "pipeline/cable/excess.h"
+#include "pipeline/commands/checking.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/cross_section.h"
@@ -26,6 +27,7 @@ int draw(const DrawOptions& options) {
     return 1;
   }
   print(shown(construction_text(dresspack)));
+  if (!dresspack.estimates.empty()) print(shown(paragraph(estimate_line("", dresspack.estimates))));
   for (const Warning& warning : construction_warnings(dresspack, true)) write_stderr(warning.paragraph());
   if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
   return 0;

@@ -6,6 +6,7 @@
 
 #include "pipeline/base/installation.h"
 #include "pipeline/base/whole_file.h"
+#include "pipeline/commands/checking.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/rate.h"
@@ -22,7 +23,9 @@ int rate(const RunOptions& options) {
   const StudyPlaces& places = own.places;
   const std::vector<RankingRow> rows = made_rows(rated.study, places, options);
   write_text_if_changed(places.folder / "rate.csv", rate_csv(rated, rows));
-  print(shown(fmt::format("{}\nTable: {}\n", rate_table(rated, rows), (places.folder / "rate.csv").string())));
+  print(shown(rate_table(rated, rows)));
+  if (!rated.estimates.empty()) print(shown(paragraph(estimate_line("", rated.estimates))));
+  print(shown(fmt::format("\nTable: {}\n", (places.folder / "rate.csv").string())));
   return say_failures(options.study, rows);
 }
 

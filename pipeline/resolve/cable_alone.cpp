@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "pipeline/base/lists.h"
 #include "pipeline/resolve/data_sheet.h"
@@ -89,12 +90,28 @@ const Node* lone_cable(const Node& dresspack) {
   return off_axis && std::strtod(off_axis->text.c_str(), nullptr) != 0 ? nullptr : &only;
 }
 
-/// Returns the entry of dresspack.estimates for the data sheet of one cable; empty: none.
-std::string left_out_of(const Node& dresspack, const std::string& cable) {
+void add_names(const Node& part, std::set<std::string>& names) {
+  const std::string name = name_of(part);
+  names.insert(name.empty() ? "cable" : name);  // as expand_data_sheets names a part
+  if (const Node* const parts = parts_of(part))
+    for (const Node& inner : parts->items) add_names(inner, names);
+}
+
+/// Returns the entries of dresspack.estimates for the data sheets of a part and of its parts, by their names in the dresspack's
+/// file; empty: none.
+std::string left_out_of(const Node& dresspack, const Node& part) {
   const Node* const estimates = dresspack.find("estimates");
-  if (!estimates) return "";
-  const std::size_t begin = estimates->text.find(fmt::format("data_sheet of {}: ", cable));
-  return begin == std::string::npos ? "" : estimates->text.substr(begin, estimates->text.find("; ", begin) - begin);
+  std::set<std::string> names;
+  add_names(part, names);
+  std::string found;
+  for (std::string rest = estimates ? estimates->text : ""; !rest.empty();) {
+    const std::string entry = rest.substr(0, rest.find("; "));
+    rest.erase(0, entry.size() + 2);
+    if (std::ranges::any_of(
+            names, [&](const std::string& name) { return entry.starts_with(fmt::format("data_sheet of {}: ", name)); }))
+      found += (found.empty() ? "" : "; ") + entry;
+  }
+  return found;
 }
 
 Node expanded(Node dresspack) {
@@ -127,14 +144,14 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   const std::size_t which = part.empty() ? 0 : static_cast<std::size_t>(known - names.begin());
   const Node* lone = is_hose(dresspack) ? nullptr : lone_cable(dresspack);
   Node cable = is_hose(dresspack) ? *parts_with_parts(dresspack)[which] : lone ? *lone : cable_of(dresspack);
+  const std::string left_out = left_out_of(dresspack, cable);
   if (lone && dresspack.find("name")) cable["name"] = *dresspack.find("name");
   if (lone) copy(dresspack, "ratings", cable);
   Node alone = around(std::move(cable));
   alone.where = asked;
   copy(dresspack, "source", alone);
   copy(dresspack, "materials", alone);
-  if (const std::string left_out = left_out_of(dresspack, names[which]); !left_out.empty())
-    alone["estimates"] = scalar(left_out);
+  if (!left_out.empty()) alone["estimates"] = scalar(left_out);
   if (is_hose(dresspack)) return alone;
   for (const char* key :
        {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N", "construction_state",

@@ -65,6 +65,7 @@ class RatedStudyMaker {
     const std::vector<std::string> cables = cables_of(dresspack);
     if (cables.empty())
       throw InputError({file_.string()}, "holds no cable (a part that holds parts)", "name another dresspack");
+    if (const Node* const estimates = dresspack.find("estimates")) made_.estimates = estimates->text;
     for (const std::string& cable : cables) add_cable(dresspack, cable, cables.size() > 1, rigs);
     refuse_common_fault();
     return std::move(made_);

@@ -24,6 +24,7 @@ struct RatedTest {
 struct RateStudy {
   Study study;
   std::vector<RatedTest> tests;  ///< one test per job of the study, in the order of the jobs
+  std::string estimates{};       ///< dresspack.estimates of the file; empty: none
 };
 
 /// Returns a study of every cable of a dresspack's file in every rig of `rigs` (a folder of jobs) and in the rigs of its

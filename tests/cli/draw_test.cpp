@@ -88,6 +88,24 @@ TEST_CASE("a cable needs no more than its data sheet's line, and is as wide as t
   CHECK(run(scratch, "dresslife", "draw hose.yaml").err.find("diameter_mm is missing") != std::string::npos);
 }
 
+TEST_CASE("draw, rate, check: the estimates of a cable whose part has another name than the cable") {
+  Scratch scratch;
+  for (const char* part : {"lead", "power"}) {
+    scratch.write("cable.yaml", std::string("name: lead\nsource: test\ncomponents:\n  - {name: ") + part +
+                                    ", helix_radius_mm: 0, data_sheet: '4G1,5'}\n");
+    scratch.write(
+        "job.yaml",
+        "motion: {rig: {kind: rolling_flex, radius_diameters: 10, travel_m: 1}}\ndresspack: {cable: cable.yaml}\n");
+    for (const char* command : {"draw cable.yaml", "rate cable.yaml", "check job.yaml"}) {
+      const std::string printed = unwrapped(must_run(scratch, "dresslife", command).out);
+      INFO(command << ": " << printed);
+      CHECK(printed.find(std::string("ESTIMATE, not in the dresspack: data_sheet of ") + part +
+                         ": conductor_class 6 (class 5 has wires of 0.25 mm") != std::string::npos);
+      CHECK(printed.find("; friction_coefficient 0.3 (") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("draw: a cable alone has the mass of its construction") {
   Scratch scratch;
   scratch.write("cable.yaml",
