@@ -10,6 +10,7 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/rate.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -26,6 +27,7 @@ int rate(const RunOptions& options) {
   print(shown(rate_table(rated, rows)));
   if (!rated.estimates.empty()) print(shown(paragraph(estimate_line("", rated.estimates))));
   print(shown(fmt::format("\nTable: {}\n", (places.folder / "rate.csv").string())));
+  write_stderr(shown(problem_words(rated.study)));
   return say_failures(options.study, rows);
 }
 

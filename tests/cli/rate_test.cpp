@@ -94,6 +94,25 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
         std::string::npos);
 }
 
+TEST_CASE("rate: all problems of a cable beside others are listed, each once") {
+  Scratch scratch;
+  const std::string lead = "helix_radius_mm: 8, slack_percent: 1, data_sheet: '4G1,5'";
+  scratch.write("hose.yaml",
+                "name: hose\nsource: test\ninner_diameter_mm: 30\ndiameter_mm: 40\nmass_kg_per_m: 1\n"
+                "bending_stiffness_Nm2: 1\ncomponents:\n  - {name: p, " +
+                    lead + ", ratings: [{rig: {kind: torsion}, cycles: 1e6, source: test}, " +
+                    "{rig: {kind: rolling_flex, radius_diameters: 10}, cycles: 1e6, source: test}]}\n" +
+                    "  - {name: q, phase_deg: 180, " + lead + "}\n");
+  const Outcome outcome = run(scratch, "dresslife", "rate hose.yaml --quiet");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.find("needs twist_deg_per_m; give it (and 1 more problems, listed below the jobs)") !=
+        std::string::npos);
+  const std::size_t listed = outcome.err.find("a rig of kind rolling_flex needs travel_m; give it (job p-rating_2)");
+  CHECK(listed != std::string::npos);
+  CHECK(outcome.err.find("needs travel_m", listed + 40) == std::string::npos);
+}
+
 /// Returns the numbers after ",done," of each row: cycles_p10, cycles_p50, cycles_p90, worst_wire_cycles, cycles_all_stick,
 /// cycles_all_free, ..
 std::vector<std::vector<double>> lives_in(const std::string& csv) {
