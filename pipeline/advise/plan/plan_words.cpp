@@ -290,6 +290,7 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
 
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
   std::vector<BesideRow> rows;
+  constexpr double rounding = 1e-9;  // relative; sums over the rows of a table depend on their order
   // digits: 0: the number is a count.
   const auto add = [&](const std::string& what, double now, double then, int digits, const std::string& now_range = "",
                        const std::string& then_range = "") {
@@ -297,7 +298,9 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
       return digits == 0 ? fmt::format("{:.0f}", value) : readable(value, digits);
     };
     rows.push_back({what, text(now) + now_range, text(then) + then_range,
-                    then == now ? "0" : (then > now ? "+ " : "- ") + text(std::abs(then - now))});
+                    std::abs(then - now) <= rounding * std::max(std::abs(now), std::abs(then))
+                        ? "0"
+                        : (then > now ? "+ " : "- ") + text(std::abs(then - now))});
   };
   const auto before_first = [](const Plan& of) { return sum_of(of.rows, &RowPlan::fails_before_first); };
   const auto failures = [](const Plan& of) { return sum_of(of.years, &YearOfPlan::unplanned); };
