@@ -398,20 +398,29 @@ class HourOfDuty {
  public:
   void add(double repeats, double seconds, const std::string& what) {
     time_ += repeats * seconds / 3600;
-    words_ += fmt::format("{}{} x {:.1f} s of {}", words_.empty() ? "" : ", ", readable(repeats), seconds, what);
+    constexpr double short_time = 0.1;
+    words_ += fmt::format("{}{} x {} s of {}", words_.empty() ? "" : ", ", readable(repeats),
+                          std::abs(seconds) < short_time ? readable(seconds, 2) : fmt::format("{:.1f}", seconds), what);
+  }
+  /// moves: time of the moves between the programs of a round.
+  void add_moves(double rounds, double moves) {
+    add(rounds, moves, "moves between them");
+    moves_ = rounds * moves / 3600;
   }
   /// Errors: InputError if the programs take longer than the hour.
   void check(const Duty& duty) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-4;  // of the times of repeats; it changes no life
     if (time_ > 1 + rounding)
       throw InputError(
           duty.where,
           fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time_, words_),
-          "give fewer repeats, or smaller shares of the time");
+          moves_ > 0 ? fmt::format("give fewer repeats, or shares of the time that leave {} % for the moves",
+                                   readable(100 * moves_, 2))
+                     : "give fewer repeats, or smaller shares of the time");
   }
 
  private:
-  double time_ = 0;
+  double time_ = 0, moves_ = 0;
   std::string words_;
 };
 
@@ -433,7 +442,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     for (const OrderedProgram& ordered : duty.order)
       for (const DutyProgram& program : duty.programs)
         if (program.job == ordered.job) moves -= programs.row(program).repeat_seconds;
-    hour.add(repeats_in_rounds(duty, repeats_of(parts)).back(), moves, "moves between them");
+    hour.add_moves(repeats_in_rounds(duty, repeats_of(parts)).back(), moves);
   }
   hour.check(duty);
   return rates;

@@ -196,7 +196,19 @@ TEST_CASE("duties: an order counts the damage of its round beside the repeats th
   CHECK_THAT(
       refusal(90 + 241),
       Catch::Contains(
-          "take 60.1 minutes of each hour (20.0 x 30.0 s of 'a', 30.0 x 60.0 s of 'b', 5.00 x 241.0 s of moves between them)"));
+          "take 60.1 minutes of each hour (20.0 x 30.0 s of 'a', 30.0 x 60.0 s of 'b', 5.00 x 241.0 s of moves between them); give "
+          "fewer repeats, or shares of the time that leave 33 % for the moves"));
+  CHECK(refusal(90 + 240.05).empty());  // by rounding only
+  Case full;
+  const DutyFile whole = full.file(
+      "  - name: d\n    programs: [{job: a, percent_of_time: 50}, {job: b, percent_of_time: 50}]\n"
+      "    order: [{job: a, repeats: 1}, {job: b, repeats: 1}]\n");
+  full.rows.push_back(row_of(full.scratch, {round_name(whole.duties[0]), 90.05, round}));
+  full.study.jobs.push_back({round_name(whole.duties[0]), std::make_shared<const Job>(), ""});
+  CHECK_THAT(
+      message_of([&] { evaluated(whole, full.study, full.rows); }),
+      Catch::Contains("30.0 x 0.050 s of moves between them); give fewer repeats, or shares of the time that leave "
+                      "0.042 % for the moves"));
 }
 
 TEST_CASE("duties: a plant's table of lives is the same distribution, and holds what its dresspacks share once") {
