@@ -128,6 +128,21 @@ void describe(Fields& f, DutyFile& file) {
   f.list("duties", file.duties, Need::required, "The duties.");
 }
 
+/// Adds a problem for each key of a program that is written beside `programs`, and removes the key from the document.
+void take_out_keys_of_programs(Node& document, Problems& problems) {
+  const std::set<std::string> of_programs{"batch_size",         "repeats_per_shift", "percent_of_time",
+                                          "percent_of_repeats", "deviation_percent", "recording_of"};
+  if (!document.is_map() || !document.find("duties") || !document.find("duties")->is_list()) return;
+  for (Node& duty : document["duties"].items)
+    std::erase_if(duty.entries, [&](const Entry& entry) {
+      if (!of_programs.contains(entry.key)) return false;
+      problems.add(entry.where, fmt::format("'{}' is a key of each program, not of the duty", entry.key),
+                   fmt::format("write it in the entries of programs: {{job: NAME, {}: {}}}", entry.key,
+                               entry.value.is_scalar() ? entry.value.text : "..."));
+      return true;
+    });
+}
+
 }  // namespace
 
 std::array<Day, 2> PastDuty::days(Day today) const {
@@ -188,10 +203,11 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
 DutyFile read_duties(const std::filesystem::path& name, Day today) {
   check_utf8(read_text(name),
              name.string());  // with another encoding the names of duties would differ from those of a fleet
-  const Node document = read_yaml(name);
+  Node document = read_yaml(name);
   if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;
   Problems problems;
+  take_out_keys_of_programs(document, problems);
   read_fields(document, Describe([&](Fields& f) { describe(f, file); }), problems);
   if (file.duties.empty() && !problems.touch("duties"))
     problems.add(file.where, "duties has no entry", "write '- name: ...' with programs");

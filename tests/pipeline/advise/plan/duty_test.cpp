@@ -337,6 +337,9 @@ TEST_CASE("a file of duties that contradicts itself is refused at its place") {
             .find("repeats") != std::string::npos);
   CHECK(refusal(of_programs("      - {job: a, repeat_per_hour: 1}\n")).find("did you mean 'repeats_per_hour'") !=
         std::string::npos);
+  CHECK(refusal(of_programs("      - {job: a, repeats_per_hour: 1}\n", "    batch_size: 5\n"))
+            .find("'batch_size' is a key of each program, not of the duty; write it in the entries of programs: {job: "
+                  "NAME, batch_size: 5}") != std::string::npos);
   CHECK(refusal("study: s\nduties: [{name: T\xfcr}]\n").find("duties.yaml:2: error: is no text in UTF-8") !=
         std::string::npos);
   CHECK(refusal("study: s\nduties: []\n").find("duties") != std::string::npos);
