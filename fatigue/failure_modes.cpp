@@ -57,6 +57,7 @@ class Modes {
     std::vector<bool> counts(in_.sites.size());
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
     fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job, in_.threads);
+    put_taut(response, in_.taut);
     set_bound(response, pipeline::Inside::glued, in_.glued[mode]);
     set_bound(response, pipeline::Inside::free, in_.free[mode]);
     add_planned(mode, response);

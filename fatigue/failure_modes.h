@@ -48,6 +48,7 @@ struct ModeInputs {
   std::function<std::vector<float>(std::size_t site)> strains_of;
   std::vector<std::size_t> starts;    ///< (rest) number of starts of loose cables, see read_rests()
   std::vector<VariedStrains> varied;  ///< empty: only the scatter of wires is uncertain
+  std::vector<double> taut;           ///< see read_taut_stiffnesses()
   /// (mode) life of the worst wire [repeats] if everything inside the cables is glued, and if it slips freely.
   std::vector<double> glued, free;
   Percentiles planned;  ///< of all modes together, over the scatter of wires [repeats]

@@ -723,7 +723,10 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                                           const std::vector<double>& glued, const std::vector<double>& free) {
   std::vector<std::size_t> starts;
   std::vector<VariedStrains> varied;
-  if (c.job.uncertainty.enabled) varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
+  std::vector<double> taut;
+  if (c.job.uncertainty.enabled)
+    varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain),
+    taut = read_taut_stiffnesses(c.strain);
   const ModeInputs inputs{c.job,
                           c.sites,
                           c.component,
@@ -735,6 +738,7 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                           [&](std::size_t site) { return c.strains_of(site); },
                           std::move(starts),
                           std::move(varied),
+                          std::move(taut),
                           glued,
                           free,
                           scatter.first_place.lives};

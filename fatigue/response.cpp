@@ -237,4 +237,27 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, s
   if (starts.size() > 1) put_rests(response, varied, starts);
 }
 
+std::vector<double> read_taut_stiffnesses(const pipeline::FileReader& strain) {
+  std::vector<double> stiffnesses;
+  for (const char* name : {"softer_taut_z", "stiffer_taut_z"})
+    if (strain.has_attribute(name)) stiffnesses.push_back(strain.number_attribute(name));
+  return stiffnesses;
+}
+
+void put_taut(pipeline::LifeResponse& response, const std::vector<double>& stiffnesses) {
+  constexpr double one_repeat = 0;  // log10
+  const std::size_t nodes = response.strength.size() * response.slope.size();
+  for (const double z : stiffnesses) {
+    std::vector<double> places{z};
+    if (std::abs(z) < LifeResponse::farthest) places.push_back(std::copysign(LifeResponse::farthest, z));
+    for (const double place : places)
+      for (const pipeline::Inside inside : {pipeline::Inside::as_is, pipeline::Inside::glued, pipeline::Inside::free}) {
+        response.points.push_back({});
+        response.points.back()[index_of(pipeline::Uncertain::hose_stiffness)] = place;
+        response.inside.push_back(inside);
+        response.worst_life.insert(response.worst_life.end(), nodes, one_repeat);
+      }
+  }
+}
+
 }  // namespace dresslife::fatigue

@@ -38,6 +38,13 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, s
                    const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
                    const pipeline::Job& job, std::size_t threads);
 
+/// Returns z of hose_stiffness from which on a softer and a stiffer hose are pulled tight (attributes of strain.h5); empty: none is.
+std::vector<double> read_taut_stiffnesses(const pipeline::FileReader& strain);
+
+/// Adds a life of one repeat at these stiffnesses and beyond: there the motion tears the dresspack or pulls it out of its clamps.
+/// Without it, a straight line through the other stiffnesses gave such hoses the longest lives.
+void put_taut(pipeline::LifeResponse& response, const std::vector<double>& stiffnesses);
+
 /// (W40) Makes the lives at the rests of loose cables a parameter of the response. The z of a rest is the normal score of its
 /// life among those of all starts, minus the score of the job's own rest. The mean of the prior is reduced by the same score. The
 /// effect of a variation that starts from another rest is used for the job's own rest, too (pipeline::together()). At another

@@ -697,6 +697,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     written += varied.points().size();
     work.other_motions(other + 1);
   }
+  for (const char* taut : {"softer_taut_z", "stiffer_taut_z"})
+    if (motion.has_attribute(taut)) strain.attribute(taut, motion.number_attribute(taut));
   if (places.all > 0) strain.attribute("moving_places", static_cast<double>(places.moving));
   const auto worst = std::ranges::max_element(
       evaluations, [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });

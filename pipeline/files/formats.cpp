@@ -207,6 +207,9 @@ Format make_motion_format() {
     {"time_step", f64, maybe, "integration step of the last repeat, s"},
     {"softer_z", f64, maybe, "standardised value of hose_stiffness in /softer (pipeline/job/uncertainty.h)"},
     {"stiffer_z", f64, maybe, "the same of /stiffer"},
+    {"softer_taut_z", f64, maybe,
+     "standardised value of hose_stiffness from which on softer hoses are pulled tight, the nearest simulated one; absent: none is"},
+    {"stiffer_taut_z", f64, maybe, "the same of stiffer hoses"},
     {"curvature_error", f64, maybe,
      "estimated relative rms error of the curvature by the time step, in the most dynamic seconds"},
     {"tool_note", text, maybe, "note about a tool whose space is not known; absent: none"},
@@ -321,6 +324,8 @@ Format make_strain_format() {
   add(format, {
     {"largest_force_share", f64, maybe, "as in the life file, in files without /cable/strain"},
     {"clamp_moment_share", f64, maybe, "as in the life file, in files without /cable/strain"},
+    {"softer_taut_z", f64, maybe, "as in the motion file"},
+    {"stiffer_taut_z", f64, maybe, "as in the motion file"},
     {"loose_mesh_error", f64, maybe,
      "estimated share of the curvature of loose cables that their mesh misses (strain.cable_elements_per_segment): "
      "rms over the motion, of the worst cable; absent: no loose cable"},

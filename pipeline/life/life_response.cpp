@@ -17,7 +17,7 @@ namespace {
 
 using StrainPoint = std::array<double, strain_parameters>;
 
-constexpr double farthest = 3.5;  // standard deviations; beyond this z, no knowledge exists
+constexpr double farthest = LifeResponse::farthest;
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
                       of_rest = index_of(Uncertain::rest), hose_stiffness = index_of(Uncertain::hose_stiffness);
 

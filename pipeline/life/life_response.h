@@ -45,6 +45,7 @@ struct LifeResponse {
   /// shipped jobs W is at most 13, with other ramps and dampings 19. The strain of together() at 25 is a sixteenth of that at 19,
   /// and 1/1,600 of that at 1e9 repeats.
   static constexpr double undamaged = 25;
+  static constexpr double farthest = 3.5;  ///< largest |z|; beyond, no knowledge exists
 
   std::string mode;       ///< name of the mode: "wires of signal cable"
   std::string dresspack;  ///< name of the dresspack, if there are several; empty: the only one

@@ -70,20 +70,40 @@ std::string problem_in(const std::string& message) {
   return message.substr(begin, message.find("; ", begin) - begin);
 }
 
-/// Returns the warning of a refused simulation at the stiffness z. recorded: z of half the change, 0 if that is refused, too.
-Warning refused(const std::string& side, double z, double recorded, const std::string& problem) {
+/// Returns whether a refusal means that the motion tears the dresspack or pulls it out of its clamps. Others, as a simulation that breaks
+/// down or finds no rest, say nothing about the life.
+bool is_taut(const std::string& problem) { return problem.find("is pulled tight") != std::string::npos; }
+
+/// A stiffness whose simulation is refused.
+struct Refused {
+  std::string side;          ///< "softer"
+  double z = 0;              ///< the whole change
+  double recorded = 0;       ///< z of half the change; 0: it is refused, too
+  double taut = 0;           ///< z of the smallest change with which the dresspack is pulled tight; 0: none
+  std::string problem = {};  ///< at z; empty: it is not refused
+};
+
+/// Returns the lives of a refused stiffness in words.
+std::string lives_of(const Refused& at) {
   // 5 % of hoses lie beyond z, and 20 % beyond half of it: see pipeline::other_stiffness()
-  const std::string lives =
-      recorded == 0
-          ? "Its lives there are those of a straight line through the other stiffness"
-          : fmt::format(
-                "5 to 20 % of hoses are too {} for this program, but their lives are those of a straight line "
-                "through 1 and {:.2g} times the stiffness",
-                side == "softer" ? "soft" : "stiff", factor_of(recorded));
+  const char* const kind = at.side == "softer" ? "soft" : "stiff";
+  if (at.taut != 0)
+    return fmt::format(
+        "{} of hoses are too {} for this program. Lives count as one repeat from {:.2g} times the stiffness on, and fall to "
+        "it from {:.2g} times",
+        at.taut == at.z ? "5 to 20 %" : "More than 20 %", kind, factor_of(at.taut), factor_of(at.recorded));
+  if (at.recorded == 0) return "Its lives there are those of a straight line through the other stiffness";
+  return fmt::format(
+      "5 to 20 % of hoses are too {} for this program, but their lives are those of a straight line through 1 and {:.2g} "
+      "times the stiffness",
+      kind, factor_of(at.recorded));
+}
+
+Warning warning_of(const Refused& at) {
   return pipeline::warning_of(
       pipeline::WarningKind::slack, "",
-      fmt::format("with {:.2g} times the hose's bending stiffness the simulation is refused ({}). {}", factor_of(z),
-                  problem, lives),
+      fmt::format("with {:.2g} times the hose's bending stiffness the simulation is refused ({}). {}", factor_of(at.z),
+                  at.problem, lives_of(at)),
       "the routing leaves this hose no room for another stiffness",
       "more free length; or measure the hose, and give bending_stiffness_Nm2 and a smaller uncertainty.hose_stiffness");
 }
@@ -172,28 +192,31 @@ std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_per
 using Runner = std::function<std::vector<Check>(const pipeline::Setup& setup, const char* name, double z)>;
 
 /// Returns a warning for each limit that the job keeps with its own stiffness and exceeds with another one, and for each side that does
-/// not run.
+/// not run. note: gets each such side.
 std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vector<Check>& own, double time_step,
-                                        const Runner& run) {
+                                        const Runner& run, const std::function<void(const Refused&)>& note = {}) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> warnings;
   std::vector<OtherRun> others;
   if (reach == 0) return warnings;
   for (const auto& [name, side] : {std::pair("softer", -reach), std::pair("stiffer", reach)}) {
-    std::string problem;
-    double recorded = 0;
+    Refused refused{name, side};
     for (const double z : {side, side / 2}) {  // a smaller change if the routing does not allow the larger one
       try {
         pipeline::Setup setup = setup_with(job, factor_of(z), time_step);
         std::vector<Check> checks = run(setup, name, z);
-        recorded = z;
+        refused.recorded = z;
         others.push_back({z, std::move(setup), std::move(checks)});
         break;
       } catch (const pipeline::InputError& refusal) {
-        if (problem.empty()) problem = problem_in(refusal.what());
+        const std::string problem = problem_in(refusal.what());
+        if (refused.problem.empty()) refused.problem = problem;
+        if (is_taut(problem)) refused.taut = z;
       }
     }
-    if (!problem.empty()) warnings.push_back(refused(name, side, recorded, problem));
+    if (refused.problem.empty()) continue;
+    warnings.push_back(warning_of(refused));
+    if (note) note(refused);
   }
   return pipeline::joined(std::move(warnings), beyond_warnings(job, own, others));
 }
@@ -203,8 +226,9 @@ std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vec
 std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own,
                                              pipeline::FileWriter& file) {
   std::map<double, double> distances;
-  std::vector<Warning> warnings =
-      warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char* name, double z) {
+  std::vector<Warning> warnings = warnings_of_others(
+      job, own.checks, own.time_step,
+      [&](const pipeline::Setup& setup, const char* name, double z) {
         RecordedMotion places;
         RunSummary summary = Simulation(setup).run({.take = [&](const Sample& sample) { places.add(sample); },
                                                     .begin = [&](int) { places = {}; },
@@ -213,6 +237,9 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
         file.attribute(std::string(name) + "_z", z);
         if (!summary.periodic) distances[z] = summary.distance;
         return std::move(summary.checks);
+      },
+      [&](const Refused& side) {
+        if (side.taut != 0) file.attribute(side.side + "_taut_z", side.taut);
       });
   return pipeline::joined(std::move(warnings), periodic_warnings(job, own.periodic, distances));
 }

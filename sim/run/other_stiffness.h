@@ -16,6 +16,7 @@ namespace dresslife::sim {
 /// that does not end where it began, one more. Writes nothing if the job's uncertainty does not need them. own: the job's own run,
 /// whose time step they have. With twice this step the life of `hard` at 0.7 times the stiffness was a hundredth. Returns a warning
 /// for each side whose simulation is refused. It is then recorded at half the change; if that is refused, too, its group is absent.
+/// If the dresspack is pulled tight there, dresslife-fatigue counts one repeat as its life (attributes softer_taut_z and stiffer_taut_z).
 /// Returns a warning for each limit that a side exceeds and the job's own run keeps, also that of the distance between repeats.
 std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own,
                                                        pipeline::FileWriter& file);

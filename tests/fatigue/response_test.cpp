@@ -324,3 +324,37 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
     }
   }
 }
+
+TEST_CASE("response: a hose that is pulled tight lives one repeat, and softer ones no longer") {
+  constexpr std::size_t stiffness = index_of(Uncertain::hose_stiffness), inside = index_of(Uncertain::friction_inside);
+  LifeResponse response;
+  response.planned = {{6, 6, 6}};
+  response.points = {{}, {}, {}, {}};
+  response.points[1][stiffness] = -0.8, response.points[2][stiffness] = 1.6, response.points[3][inside] = 1.5;
+  response.inside.assign(4, Inside::as_is);
+  response.worst_life = {6, 7, 4, 8};  // by the line through these, a softer hose lives longer
+  response.bound = {6, 4, 7};
+  response.knowledge = pipeline::prior_of({});
+  const auto life = [&](double z, double friction, Inside of) {
+    pipeline::ParameterPoint at{};
+    at[stiffness] = z, at[inside] = friction;
+    return LifeSurface(response).log10_life(at, 0, of);
+  };
+  CHECK(life(-1.6, 0, Inside::as_is) == Approx(8));
+  fatigue::put_taut(response, {-1.6});
+  const LifeResponse read = LifeResponse::from_text(response.text());  // as a plan reads it
+  CHECK(read.points == response.points);
+  CHECK(life(0, 0, Inside::as_is) == 6);
+  CHECK(life(1.6, 0, Inside::as_is) == Approx(4));
+  CHECK(life(-0.8, 0, Inside::as_is) == Approx(7));
+  CHECK(life(-1.2, 0, Inside::as_is) == Approx(3.5));
+  for (const double z : {-1.6, -2.5, -3.5, -9.0}) {
+    CAPTURE(z);
+    CHECK(life(z, 0, Inside::as_is) == Approx(0).margin(1e-12));
+    CHECK(life(z, 1.5, Inside::as_is) < 0.5);
+    CHECK(life(z, 0, Inside::glued) < 0.5);
+  }
+  const LifeResponse before = response;
+  fatigue::put_taut(response, {});
+  CHECK(response.points == before.points);
+}

@@ -78,7 +78,7 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
   if (count == 0)
     for (const char* dataset : {"/program/step", "/contact/count"})
       file.append(dataset, std::span<const std::int32_t>());
-  if (softer) file.attribute("softer_z", -1.2);
+  if (softer) file.attribute("softer_z", -1.2), file.attribute("softer_taut_z", -2.4);
   if (!loops.empty()) file.append("/program/loop", loops);
   file.append("/segment/length", std::vector<double>(segments, length / segments));
   file.append("/program/text", std::vector<std::string>{"nod", "rest", "nod", "rest", "nod", "home"});
@@ -677,6 +677,7 @@ TEST_CASE(
   evaluate(scratch / "both.h5", scratch / "no_room.h5", job("true"), no_room, 3);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "varied.h5"));
   const FileReader varied(scratch / "varied.h5", pipeline::strain_format());
+  CHECK(varied.number_attribute("softer_taut_z") == -2.4);
   const auto stiffness = varied.read<double>("/variation/stiffness"), z = varied.read<double>("/variation/z");
   const auto inside = varied.read<std::int32_t>("/variation/inside");
   const auto others = static_cast<std::size_t>(std::ranges::count(stiffness, 0.0));

@@ -17,6 +17,7 @@ using pipeline::Uncertain;
 struct Written {
   std::vector<pipeline::Warning> warnings;
   std::vector<double> softer, stiffer, factors;  // as /segment/position; only the existing datasets are filled
+  double taut = 0;                               // softer_taut_z or stiffer_taut_z; 0: none
 };
 
 Written written(const pipeline::Job& job) {
@@ -37,6 +38,8 @@ Written written(const pipeline::Job& job) {
   const auto& stiffness = pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
   for (auto& [group, values] : {std::pair("softer", &result.softer), std::pair("stiffer", &result.stiffer)}) {
     const std::string path = std::string("/") + group + "/segment/position";
+    if (const std::string taut = std::string(group) + "_taut_z"; file.has_attribute(taut))
+      result.taut += file.number_attribute(taut);
     if (!file.has(path)) continue;
     *values = file.read<double>(path);
     result.factors.push_back(stiffness.value(file.number_attribute(std::string(group) + "_z")));
@@ -75,6 +78,7 @@ TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer 
   const pipeline::Job job = sagging();
   const Written both = written(job);
   CHECK(both.warnings.empty());
+  CHECK(both.taut == 0);
   REQUIRE(both.factors.size() == 2);
   constexpr double kept = 1e-12;  // decimals of the file [m]
   CHECK(largest_difference(both.softer, positions_with(job, both.factors[0])) < kept);
@@ -173,12 +177,17 @@ TEST_CASE(
              !Catch::Contains("error:") && !Catch::Contains("dresslife preview") &&
                  Catch::Contains("with 14 times the hose's bending stiffness the simulation is refused (") &&
                  Catch::Contains("5 to 20 % of hoses are too stiff for this program") &&
-                 Catch::Contains("through 1 and 3.8 times the stiffness"));
+                 Catch::Contains("is pulled tight") &&
+                 Catch::Contains("one repeat from 14 times the stiffness on, and fall to it from 3.8 times"));
+  const double deviation = std::log(5) / std::log(1.75);
+  CHECK(half.taut == Approx(1.65 * deviation));
   spread = 20;
   const Written none = written(job);
   CHECK(none.factors.size() == 1);
   REQUIRE(none.warnings.size() == 1);
-  CHECK_THAT(none.warnings[0].words, Catch::Contains("a straight line through the other stiffness"));
+  CHECK_THAT(none.warnings[0].words, Catch::Contains("More than 20 % of hoses are too stiff") &&
+                                         Catch::Contains("one repeat from 12 times the stiffness on"));
+  CHECK(none.taut == Approx(1.65 / 2 * std::log(20) / std::log(1.75)));
 }
 
 }  // namespace dresslife::sim
