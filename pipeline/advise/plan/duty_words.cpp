@@ -239,13 +239,16 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     for (const DutyPart& part : duty.parts) time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
     text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
     text += indented_lines(duty_action(duty)) + indented_lines(percentile_words(duty));
-    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>18}  {:>25}\n", "program", wide, "repeats per h", "time",
-                        "damage", "p10 without it [h]", "p10 if twice as often [h]");
+    const std::string of = duty.past_hours > 0 ? "new: " : "";  // the action states the remaining life
+    const std::string without = of + "p10 without it [h]", as_twice = of + "p10 if twice as often [h]";
+    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {}  {}\n", "program", wide, "repeats per h", "time", "damage",
+                        without, as_twice);
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
-      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>25}\n", duty.parts[k].job, wide,
+      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>{}}  {:>{}}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
                           100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
-                          as_twice_text(duty, duty.parts[k]));
+                          columns_of(without), as_twice_text(duty, duty.parts[k]), columns_of(as_twice));
+    if (duty.past_hours > 0) text += "  new: of a new dresspack, which has no history.\n";
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
     text += mixture_words(duty);

@@ -149,6 +149,9 @@ TEST_CASE("the table of a duty names the unit of each of its lives") {
   duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1};
   duty.parts.resize(1), duty.lives.share = {1}, duty.lives.percentiles = {1e4, 2e4, 3e4};
   CHECK_THAT(duty_words({duty}), Catch::Contains("  p10 without it [h]  p10 if twice as often [h]\n"));
+  duty.past_hours = 100;
+  CHECK_THAT(duty_words({duty}), Catch::Contains("  new: p10 without it [h]  new: p10 if twice as often [h]\n") &&
+                                     Catch::Contains("  new: of a new dresspack, which has no history.\n"));
 }
 
 TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
