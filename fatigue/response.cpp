@@ -258,6 +258,17 @@ void put_taut(pipeline::LifeResponse& response, const std::vector<double>& stiff
         response.worst_life.insert(response.worst_life.end(), nodes, one_repeat);
       }
   }
+  // Without a node on the other side, the fall to one repeat would be extrapolated to it as a rise.
+  for (const double z : stiffnesses) {
+    constexpr std::size_t stiffness = index_of(pipeline::Uncertain::hose_stiffness);
+    if (std::ranges::any_of(response.points, [&](const auto& point) { return point[stiffness] * z < 0; })) continue;
+    response.points.push_back({});
+    response.points.back()[stiffness] = std::copysign(LifeResponse::farthest, -z);
+    response.inside.push_back(pipeline::Inside::as_is);
+    const std::vector<double> own(response.worst_life.begin(),
+                                  response.worst_life.begin() + static_cast<std::ptrdiff_t>(nodes));
+    response.worst_life.insert(response.worst_life.end(), own.begin(), own.end());
+  }
 }
 
 }  // namespace dresslife::fatigue

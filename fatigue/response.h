@@ -42,7 +42,8 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, s
 std::vector<double> read_taut_stiffnesses(const pipeline::FileReader& strain);
 
 /// Adds a life of one repeat at these stiffnesses and beyond: there the motion tears the dresspack or pulls it out of its clamps.
-/// Without it, a straight line through the other stiffnesses gave such hoses the longest lives.
+/// Without it, a straight line through the other stiffnesses would give such hoses the longest lives. If no other stiffness was
+/// simulated on the other side, lives there are those of the job's own stiffness.
 void put_taut(pipeline::LifeResponse& response, const std::vector<double>& stiffnesses);
 
 /// (W40) Makes the lives at the rests of loose cables a parameter of the response. The z of a rest is the normal score of its

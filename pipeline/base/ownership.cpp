@@ -124,7 +124,7 @@ bool is_input(const fs::path& file) {
   return std::any_of(begin, end, [&](const auto& input) { return inode_of(input.second) == inode; });
 }
 
-/// Returns whether a plain file has this name; false: none is seen.
+/// Returns whether a plain file has this name. Errors: InputError for a folder, a link, a device or a pipe.
 bool is_plain_file(const fs::path& file) {
   const FileKind kind = kind_of_name(file);
   if (kind == FileKind::absent || kind == FileKind::file) return kind == FileKind::file;

@@ -23,11 +23,11 @@ void describe(Fields& f, PlainPart& part) {
       "The least bend radius of a hose by its maker, at its axis. A tighter bend counts as a kink. Default: the radius "
       "at which its wall kinks, an ESTIMATE from its two diameters.");
   f.maybe_number("pressure_bar", part.pressure, above(0),
-                 "The largest working pressure in a hose, above that of the air outside.");
+                 "The largest working pressure in a hose, above that of the air outside. With most_pressure_bar.");
   f.maybe_number(
       "most_pressure_bar", part.most_pressure, above(0),
       "The working pressure that the maker of a hose allows at 20 C. Above it pressure_bar causes a warning. In a cell above 23 C "
-      "the limit decreases by 1.75 % of itself per kelvin above 20 C.");
+      "the limit decreases by 1.75 % of itself per kelvin above 20 C. With pressure_bar.");
 }
 
 void check_plain_part(const PlainPart& part, double radius, std::string_view name) {

@@ -170,8 +170,8 @@ void PieceTexts::keep(const SharedJob& job, const Sections& sections, std::size_
     std::string of_section;
     for (const auto& [key, words] : made)
       if (section.key.empty() || section.key == key) of_section += words;
-    kept_ += of_section.size();
-    sections_[{text++, section.numbers(job, numbers)}] = std::move(of_section);
+    const auto [kept, is_new] = sections_.try_emplace({text++, section.numbers(job, numbers)}, std::move(of_section));
+    if (is_new) kept_ += kept->second.size();
   }
 }
 

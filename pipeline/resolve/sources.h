@@ -1,5 +1,5 @@
-// The files that the reading of jobs looks up. While a Sources exists, the look-ups of its thread through the functions below are
-// done once for any number of jobs, and give all jobs the same result. Other threads can share it.
+// The files that the reading of jobs looks up. While a Sources exists, successful look-ups of its thread through the functions below
+// are done once for any number of jobs, and give all jobs the same result. Other threads can share it.
 #pragma once
 
 #include <filesystem>

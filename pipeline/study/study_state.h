@@ -1,5 +1,4 @@
-// A study with the states of its jobs. Each command expands the study again, because that takes a tenth of a millisecond per job
-// (scripts/speed.md): no note of an earlier expansion can be wrong.
+// A study with the states of its jobs. Each command expands the study again, which takes a tenth of a millisecond per job or less.
 #pragma once
 
 #include <filesystem>

@@ -430,9 +430,11 @@ class Mounting {
     for (int k = 1; k <= steps; ++k) {
       const double u = static_cast<double>(k) / steps;
       const Pose pose = robot_->pose(from + u * u * (3 - 2 * u) * way);
-      if (!world->advance(pose.clamps, pose.links).finite || rod_.mean_elongation(world->state()) > longest_elongation)
-        fail(rod_.most_stretched(world->state()).dresspack,
-             "is pulled tight on the way from the mounting pose to the first waypoint");
+      const char* const way_words = "on the way from the mounting pose to the first waypoint";
+      if (!world->advance(pose.clamps, pose.links).finite)
+        fail(0, fmt::format("breaks down in the simulation {}", way_words), "choose a smaller simulation.time_step_ms");
+      if (rod_.mean_elongation(world->state()) > longest_elongation)
+        fail(rod_.most_stretched(world->state()).dresspack, fmt::format("is pulled tight {}", way_words));
     }
     return world->state();
   }

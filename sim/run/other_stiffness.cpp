@@ -89,9 +89,10 @@ std::string lives_of(const Refused& at) {
   const char* const kind = at.side == "softer" ? "soft" : "stiff";
   if (at.taut != 0)
     return fmt::format(
-        "{} of hoses are too {} for this program. Lives count as one repeat from {:.2g} times the stiffness on, and fall to "
-        "it from {:.2g} times",
-        at.taut == at.z ? "5 to 20 %" : "More than 20 %", kind, factor_of(at.taut), factor_of(at.recorded));
+        "{} of hoses are too {} for this program. With {:.2g} times the stiffness or {} a life counts as one repeat. Between "
+        "{:.2g} and {:.2g} times it falls from the simulated life to one repeat",
+        at.taut == at.z ? "5 to 20 %" : "More than 20 %", kind, factor_of(at.taut), at.taut < 0 ? "less" : "more",
+        factor_of(at.recorded), factor_of(at.taut));
   if (at.recorded == 0) return "Its lives there are those of a straight line through the other stiffness";
   return fmt::format(
       "5 to 20 % of hoses are too {} for this program, but their lives are those of a straight line through 1 and {:.2g} "

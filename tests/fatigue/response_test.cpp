@@ -357,4 +357,11 @@ TEST_CASE("response: a hose that is pulled tight lives one repeat, and softer on
   const LifeResponse before = response;
   fatigue::put_taut(response, {});
   CHECK(response.points == before.points);
+  // Nothing is known of stiffer hoses.
+  response.points = {{}, {}}, response.inside.assign(2, Inside::as_is), response.worst_life = {6, 8};
+  response.points[1][inside] = 1.5;
+  fatigue::put_taut(response, {-0.8});
+  CHECK(life(-0.4, 0, Inside::as_is) == Approx(3));
+  CHECK(life(-0.8, 0, Inside::as_is) == Approx(0).margin(1e-12));
+  for (const double z : {0.8, 1.6, 3.5}) CHECK(life(z, 0, Inside::as_is) == Approx(6));
 }

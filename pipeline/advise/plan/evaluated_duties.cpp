@@ -41,7 +41,7 @@ class Jobs {
   explicit Jobs(const Study& study) : study_(study) {
     for (const StudyJob& job : study.jobs) by_name_.emplace(job.name, &job);
   }
-  /// Returns null if no such job exists or it was not expanded.
+  /// Returns null if no such job exists or it is invalid.
   const StudyJob* find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() || !found->second->job ? nullptr : found->second;
@@ -250,7 +250,7 @@ class Programs {
     return *row->second;
   }
 
-  /// Returns null if the study was not expanded.
+  /// Returns null if the job is invalid.
   const Job* job(const DutyProgram& program) const { return jobs_.of(program).job.get(); }
 
   std::vector<RankingRow> rows(const Duty& duty) const {

@@ -43,8 +43,8 @@ std::vector<double> repeats_in_rounds(const Duty& duty, const std::vector<double
 /// joints. Precondition: each course has two samples or more.
 std::string round_csv(const std::vector<JointCourse>& programs, const std::vector<Joint>& axes);
 
-/// Leaves the job without uncertain parameters. Medians that a calibration or makers' ratings put into its keys stay. The stages
-/// would take them back together with a calibration that has no effect.
+/// Leaves the job without uncertain parameters. Medians that a calibration or makers' ratings put into its keys stay. The
+/// calibration is removed, because without uncertainty the stages would reset these medians to neutral values.
 void evaluate_at_medians(Job& job);
 
 /// Returns the jobs of all rounds, each once. Writes their motions to this folder, from the results of the programs.
