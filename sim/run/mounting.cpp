@@ -98,12 +98,22 @@ class Mounting {
  private:
   const pipeline::Routing& routing(int dresspack) const { return setup_.dresspacks[dresspack].routing; }
 
-  [[noreturn]] void fail(int dresspack, const std::string& what,
-                         const std::string& remedy =
-                             "check the free length and the clamps' places and directions in the mounting pose") const {
-    throw RoutingRefusal(routing(dresspack).where,
-                         fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
-                         remedy + " (dresslife preview shows them)", dresspack);
+  static constexpr const char* clamp_remedy =
+      "check the free length and the clamps' places and directions in the mounting pose";
+
+  RoutingRefusal refusal_of(int dresspack, const std::string& what, const std::string& remedy) const {
+    return {routing(dresspack).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
+            remedy + " (dresslife preview shows them)", dresspack};
+  }
+
+  [[noreturn]] void fail(int dresspack, const std::string& what, const std::string& remedy = clamp_remedy) const {
+    throw refusal_of(dresspack, what, remedy);
+  }
+
+  [[noreturn]] void fail_taut(int dresspack, const std::string& when) const {
+    RoutingRefusal tight = refusal_of(dresspack, "is pulled tight " + when, clamp_remedy);
+    tight.taut = true;
+    throw tight;
   }
 
   [[noreturn]] void fail_in_the_way(const Piece& piece, const MountedPiece& held) const {
@@ -397,7 +407,7 @@ class Mounting {
     const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, state, pose);
     const Equilibrium found = settle(*world, pose.links, settling_steps, rest);
     if (found.status == EquilibriumStatus::too_short)
-      fail(rod_.most_stretched(found.state).dresspack, "is pulled tight when it is clamped");
+      fail_taut(rod_.most_stretched(found.state).dresspack, "when it is clamped");
     if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest)) {
       const std::size_t contacts = world->contacts().size();
       const std::string what =
@@ -434,7 +444,7 @@ class Mounting {
       if (!world->advance(pose.clamps, pose.links).finite)
         fail(0, fmt::format("breaks down in the simulation {}", way_words), "choose a smaller simulation.time_step_ms");
       if (rod_.mean_elongation(world->state()) > longest_elongation)
-        fail(rod_.most_stretched(world->state()).dresspack, fmt::format("is pulled tight {}", way_words));
+        fail_taut(rod_.most_stretched(world->state()).dresspack, way_words);
     }
     return world->state();
   }

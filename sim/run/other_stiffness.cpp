@@ -15,6 +15,7 @@
 #include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/uncertainty.h"
 #include "sim/run/cures.h"
+#include "sim/run/routing.h"
 
 namespace dresslife::sim {
 namespace {
@@ -69,10 +70,6 @@ std::string problem_in(const std::string& message) {
   const std::size_t at = message.find(mark), begin = at == std::string::npos ? 0 : at + mark.size();
   return message.substr(begin, message.find("; ", begin) - begin);
 }
-
-/// Returns whether a refusal means that the motion tears the dresspack or pulls it out of its clamps. Others, as a simulation that breaks
-/// down or finds no rest, say nothing about the life.
-bool is_taut(const std::string& problem) { return problem.find("is pulled tight") != std::string::npos; }
 
 /// A stiffness whose simulation is refused.
 struct Refused {
@@ -210,9 +207,10 @@ std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vec
         others.push_back({z, std::move(setup), std::move(checks)});
         break;
       } catch (const pipeline::InputError& refusal) {
-        const std::string problem = problem_in(refusal.what());
-        if (refused.problem.empty()) refused.problem = problem;
-        if (is_taut(problem)) refused.taut = z;
+        if (refused.problem.empty()) refused.problem = problem_in(refusal.what());
+        // Other refusals, as a simulation that breaks down or finds no rest, say nothing about the life.
+        const auto* const of_routing = dynamic_cast<const RoutingRefusal*>(&refusal);
+        if (of_routing && of_routing->taut) refused.taut = z;
       }
     }
     if (refused.problem.empty()) continue;
@@ -254,7 +252,11 @@ std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const Sh
   std::vector<Warning> warnings =
       warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char*, double z) {
         ShortRun run = short_run(setup, short_run_segments);
-        if (!run.refusal.empty()) throw pipeline::InputError({}, run.refusal, "");
+        if (!run.refusal.empty()) {
+          RoutingRefusal refusal({}, run.refusal, "", run.dresspack);
+          refusal.taut = run.taut;
+          throw refusal;
+        }
         // A short run has two repeats. So it can judge only jobs that have no more.
         if (!run.periodic && !run.stopped_at && setup.simulation.most_repeats <= 2) distances[z] = run.distance;
         return std::move(run.checks);

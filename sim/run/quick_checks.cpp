@@ -547,6 +547,7 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     result.time_step = summary.time_step;
   } catch (const RoutingRefusal& refusal) {
     result.refusal = refusal.problem;
+    result.taut = refusal.taut;
     result.dresspack = refusal.dresspack;
     result.work += refusal.work;
     if (result.begin) result.taut_at = refusal.time;

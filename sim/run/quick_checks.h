@@ -35,6 +35,7 @@ struct ShortRun {
   std::vector<std::string> obstacles;  ///< names, indexed by RubbedPatch::obstacle
   double seconds = 0;                  ///< as in RunSummary [s]
   std::string refusal;                 ///< reason why it does not run; empty: it runs
+  bool taut = false;                   ///< RoutingRefusal::taut
   std::optional<double> taut_at;       ///< time at which a dresspack is pulled taut [s]; absent: it is not
   std::optional<double>
       stopped_at;                 ///< time at which the run was stopped because of its duration [s]; absent: it was not

@@ -33,6 +33,7 @@ struct RoutingRefusal : pipeline::InputError {
   int dresspack;
   std::optional<double> time;  ///< time of the program [s]; absent: before the program
   double work = 0;             ///< work until the refusal, in the unit of World::work
+  bool taut = false;           ///< the dresspack is pulled tight: the motion tears it or pulls it out of its clamps
 };
 
 /// Returns warnings for dresspacks with all clamps and rings on one link: they hardly bend.

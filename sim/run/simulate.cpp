@@ -124,7 +124,7 @@ void Simulation::check_taut(const RodState& state, double time) const {
   const Span& span = rod_.most_stretched(state);
   const double elongation = rod_.mean_elongation(state, span);
   if (elongation <= longest_elongation) return;
-  throw RoutingRefusal(
+  RoutingRefusal refusal(
       setup_.dresspacks[span.dresspack].routing.where,
       fmt::format("{} is pulled tight{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                   pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
@@ -133,6 +133,8 @@ void Simulation::check_taut(const RodState& state, double time) const {
           "give it more free length, or keep the motion from winding it around {} (dresslife preview shows the clamps)",
           obstacle_words(setup_)),
       span.dresspack, time);
+  refusal.taut = true;
+  throw refusal;
 }
 
 std::unique_ptr<World> Simulation::world_at(const RodState& state, const Pose& pose, double step) const {

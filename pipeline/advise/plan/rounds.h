@@ -2,8 +2,7 @@
 //
 // A round has o_k runs of program k and n_k repeats. A run is a number of consecutive repeats. Cycles of a program after itself
 // are those of its own steady state. One repeat of each run is next to other programs. The motion of a round contains each run
-// once: the programs one after the other, then the first one again. D_o: damage of this motion. r_k: repeats per hour of the
-// programs.
+// once: the programs one after the other, then the first one again. D_o: damage of this motion. r_k: repeats per hour.
 //     damage per hour = sum over k of (r_k - c o_k) D_k + c D_o,   c = min over k of r_k / n_k          (D8)
 // c is the number of rounds per hour. Repeats beyond c n_k belong to no round.
 // (D8) is exact without memory: the cycles of A A B B are those of A, of B, and of A B. Loose cables and friction have a
