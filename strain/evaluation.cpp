@@ -112,7 +112,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
                static_cast<std::size_t>(settings.cable_elements), place.known_ends, place.relief_stiffness,
                place.stiffness_factor},
-              lengths_, arcs_, samples, scratch) {
+              lengths_, arcs_, samples, scratch),
+      net_bend_(construction, means_.plan(), lengths_, arcs_, clamped(place, lengths_)) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -213,6 +214,7 @@ void Evaluation::repeat() {
 }
 
 void Evaluation::add_bends(const DeformationHistory& block) {
+  net_bend_.add(block);
   bends_.resize(2 * lengths_.size());
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
     const DeformationColumns here = block.columns(i);
@@ -239,7 +241,8 @@ void Evaluation::end_first_pass() {
   evening_.layer = of.longest;
   evening_.longest = of.evening;
   if (of.longest < 0) return;
-  evening_.straight = of.plan[of.longest].sliding == Sliding::clamp_to_clamp;
+  evening_.straight =
+      of.plan[of.longest].sliding == Sliding::clamp_to_clamp && std::isinf(construction_.layers()[of.longest].pitch());
   constexpr double slant = 1.2;  // a lay along its helix of up to 33 deg, over the same along the cable
   evening_.own_lay = of.evening <= slant * construction_.layers()[of.longest].pitch();
 }

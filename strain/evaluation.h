@@ -17,6 +17,7 @@
 #include "strain/bundle_scan.h"
 #include "strain/cable_paths.h"
 #include "strain/friction.h"
+#include "strain/net_bend.h"
 #include "strain/part_states.h"
 
 namespace dresslife::strain {
@@ -149,13 +150,15 @@ class Evaluation {
   /// bend_wave: length over which the span's curvature changes, 2 pi rms/rms of its slope, of the part that varies in time [m];
   /// infinite: no bend, or an even one. layer: of the layers on which friction has an effect, the one whose strain evens out over the
   /// greatest length; -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer evens out from clamp to clamp,
-  /// because it has no lay or fewer than four turns. own_lay: it evens out over its own lay.
+  /// because it has no lay. own_lay: it evens out over its own lay.
   struct BendScale {
     double bend_wave = HUGE_VAL, longest = 0;
     int layer = -1;
     bool straight = false, own_lay = false;
   };
   const BendScale& evening() const { return evening_; }
+  /// Returns the strain that bends of incomplete turns would cause, and that a layer which slides over its pitch lacks.
+  NetBend::Largest net_bend() const { return net_bend_.largest(); }
 
   /// Second pass. Evaluates segment `segment` of the span, whose history is `row` of `history`. Call in the order of
   /// the segments.
@@ -334,6 +337,7 @@ class Evaluation {
     double variance() const { return (squares - (sum[0] * sum[0] + sum[1] * sum[1]) / count) / count; }
   };
   std::vector<Variance> bends_;  ///< (segment, 2) curvature, and its difference to that of the next segment
+  NetBend net_bend_;
   bool first_pass_ended_ = false;
   BendScale evening_;
   std::size_t meant_ = 0;                ///< number of samples that the means have received

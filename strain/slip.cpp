@@ -50,7 +50,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     const bool turns = !(layer.is_cable() && layer.loose && slides(slip[level - 1]));
     const double before = outermost || is_thesis(construction.kinematics()) ? 0 : turning[layer.parent];
     turning[k] = turns ? helices::turning(before, layer.lay_angle, layer.helix_radius) : 0;
-    const double evening = helical || inherited > 0 ? evening_length(turning[k], length[k]) : length[k];
+    const double evening = evening_length(turning[k], length[k]);
     if (!slides(slip[level - 1]) || layer.is_hose) continue;
     if (layer.is_cable()) {
       plan[k].loose = layer.loose;

@@ -459,12 +459,38 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
             "the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
             "second {:g}): friction could hold up to {:g} times as much strain",
             layer, of.longest, of.bend_wave, believable_evening, most_held),
-        of.straight ? "it has no lay, or fewer than four turns"
+        of.straight ? "it has no lay"
         : of.own_lay
             ? fmt::format("its lay length{} is not short beside the bend", estimated ? ", an ESTIMATE," : "")
             : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
               "equal",
         remedy));
+  }
+  return all;
+}
+
+/// Returns warnings of layers that lack the strain of incomplete turns in a bend (strain/net_bend.h).
+std::vector<Warning> net_bend_warnings(const std::vector<std::unique_ptr<Evaluation>>& evaluations,
+                                       const pipeline::Job& job) {
+  // The strain range of wires could double. With slope 7 of copper their life is then up to 100 times shorter, more than all stated
+  // errors together.
+  constexpr double most_share = 1;
+  constexpr double harmless = 2e-4;  // range with which copper wire lives 1e17 cycles
+  std::vector<Warning> all;
+  for (const auto& evaluation : evaluations) {
+    const NetBend::Largest net = evaluation->net_bend();
+    if (net.layer < 0 || net.strain <= most_share * net.own || net.strain < harmless) continue;
+    const std::string layer = evaluation->name_of_layer(net.layer);
+    const bool estimated = has_estimated_lay(job.dresspacks[evaluation->dresspack()].dresspack, layer);
+    all.push_back(pipeline::warning_of(
+        WarningKind::material, "",
+        fmt::format(
+            "a bend contains few turns of {} (lay {:.0f} mm) and ends within a turn. This lengthens and shortens the "
+            "layer by up to {:.2g} %, {:.2g} times the bending strain of its wires (limit {:g}). No strain of this job "
+            "contains it, so the life is too long",
+            layer, 1e3 * net.lay, 100 * net.strain, net.strain / net.own, most_share),
+        fmt::format("the lay length{} is not short beside the bend", estimated ? ", an ESTIMATE," : ""),
+        {{}, "", "a cable with a shorter lay, or the lay length that the cable's maker states"}));
   }
   return all;
 }
@@ -666,7 +692,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.add(starts);
   static_cast<void>(pipeline::warnings_of_descriptions(job));  // for its errors; dresslife-fatigue writes the warnings
   const std::vector<Warning> warnings =
-      pipeline::joined(evening_warnings(evaluations, job), write_cables(strain, job, evaluations, starts));
+      pipeline::joined(pipeline::joined(evening_warnings(evaluations, job), net_bend_warnings(evaluations, job)),
+                       write_cables(strain, job, evaluations, starts));
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);

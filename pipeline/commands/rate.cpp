@@ -10,12 +10,23 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/study/rate.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Returns the rows without warnings about bend radius and twist: a rig prescribes both.
+std::vector<RankingRow> doubtful(std::vector<RankingRow> rows) {
+  for (RankingRow& row : rows)
+    if (row.warnings)
+      std::erase_if(*row.warnings, [](const Warning& warning) {
+        return warning.kind == WarningKind::bend_radius || warning.kind == WarningKind::twist;
+      });
+  return rows;
+}
 
 int rate(const RunOptions& options) {
   const fs::path file = named_file(options.study, "dresspacks");
@@ -27,6 +38,7 @@ int rate(const RunOptions& options) {
   print(shown(rate_table(rated, rows)));
   if (!rated.estimates.empty()) print(shown(paragraph(estimate_line("", rated.estimates))));
   print(shown(fmt::format("\nTable: {}\n", (places.folder / "rate.csv").string())));
+  write_stderr(shown(warning_lines(doubtful(rows))));
   write_stderr(shown(problem_words(rated.study)));
   return say_failures(options.study, rows);
 }

@@ -141,6 +141,24 @@ TEST_CASE("rate: the median lies between the same number with a glued and with a
   }
 }
 
+TEST_CASE("rate: warnings of the rigs' jobs are printed, except those of a bend that the rig prescribes") {
+  Scratch scratch;
+  std::string text = content(source + "/config/dresspacks/control_cable.yaml");
+  const std::string lay = "lay_length_mm: 60";
+  REQUIRE(text.find(lay) != std::string::npos);
+  scratch.write("long_lay.yaml", text.replace(text.find(lay), lay.size(), "lay_length_mm: 150"));
+  const auto warnings = [&](const std::string& of) {
+    std::string words = must_run(scratch, "dresslife", "rate " + of + " --quiet").err;
+    CHECK(words.find("smallest bend radius") == std::string::npos);
+    CHECK(words.find("torsion: warning: 'control_cable 1' is pulled with") != std::string::npos);
+    return words;
+  };
+  const std::string chain =
+      "energy_chain: warning: a bend contains few turns of control_cable/layer 1/core (lay 150 mm)";
+  CHECK(warnings("long_lay.yaml").find(chain) != std::string::npos);
+  CHECK(warnings("control_cable").find("few turns") == std::string::npos);
+}
+
 TEST_CASE("rate: in torsion with a free lower end a heavier weight shortens the life") {
   Scratch scratch;
   std::string text = std::string(cable).substr(0, std::string(cable).find("ratings:")) + "ratings:\n";
