@@ -216,14 +216,17 @@ void CablePaths::add_hose(const SpanBlock& block) {
           static_cast<float>(known ? end->curvature2 : at.curvature2[t]);
     }
   }
-  for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
-    double turned = 0, length = 0;
-    for (std::size_t i = 0; i < lengths_.size(); ++i) {
-      turned += lengths_[i] * block.deformation.columns(i).twist[t];
-      length += lengths_[i];
-    }
-    hose_twist_[next_ + t] = turned / length;
+  for (std::size_t t = 0; t < block.deformation.samples(); ++t) hose_twist_[next_ + t] = mean_twist(block, t);
+}
+
+/// Returns the mean twist along the hose at sample t of the block [rad/m].
+double CablePaths::mean_twist(const SpanBlock& block, std::size_t t) const {
+  double turned = 0, length = 0;
+  for (std::size_t i = 0; i < lengths_.size(); ++i) {
+    turned += lengths_[i] * block.deformation.columns(i).twist[t];
+    length += lengths_[i];
   }
+  return turned / length;
 }
 
 void CablePaths::add_held(const SpanBlock& block) {
@@ -291,13 +294,13 @@ void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& bloc
     if (of->loose_ && std::ranges::find(cables, of->loose_.get()) == cables.end()) {  // one of those that share
       own.push_back(of);
       cables.push_back(&*of->loose_);
-      of->add_hose(block);  // for its twist; add() overwrites it
     }
   const std::size_t samples = own.empty() ? 0 : block.deformation.samples();
   for (std::size_t t = 0; t < samples; ++t) {
     own.front()->find_nodes(block, t);
+    const double twist = own.front()->mean_twist(block, t);
     for (CablePaths* const of : own) {
-      of->shorten_loose(t);
+      of->shorten_loose(twist);
       of->feed_slack(block.step);
     }
     LooseCables::advance(cables, own.front()->nodes_, block.step, t + 1 == samples);
@@ -328,7 +331,7 @@ void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& bl
   CablePaths& first = *all.front();
   for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
     first.find_nodes(block, t);
-    for (CablePaths* const of : moved) of->shorten_loose(t);
+    for (CablePaths* const of : moved) of->shorten_loose(first.hose_twist_[first.next_ + t]);
     for (CablePaths* const of : all) of->see_gains(first.nodes_, t);
     LooseCables::advance(cables, first.nodes_, block.step);
     for (CablePaths* const of : moved) of->put_curvature(t);
@@ -424,10 +427,9 @@ void CablePaths::see_held_gains() {
   }
 }
 
-/// t: sample of the present block.
-void CablePaths::shorten_loose(std::size_t t) {
-  for (std::size_t k = 0; k < loosened_.size(); ++k)
-    loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], hose_twist_[next_ + t]));
+/// twist: of the hose [rad/m].
+void CablePaths::shorten_loose(double twist) {
+  for (std::size_t k = 0; k < loosened_.size(); ++k) loose_->shorten(k, pulled_by_twist(cables_[loosened_[k]], twist));
 }
 
 void CablePaths::put_loose(std::size_t t) {

@@ -92,7 +92,8 @@ class CablePaths {
   /// Adds a block to the paths of several evaluations of one span and computes their loose cables side by side. Each result is
   /// that of a separate call. Precondition: `all` contains every object that shares loose cables with one of `all`.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
-  /// Moves the loose cables through samples before the first one, to the places where a repeat of the motion leaves them.
+  /// Moves the loose cables through samples before the first one, to the places where a repeat of the motion leaves them. The
+  /// block can have more samples than the history of the cables, which may follow a shortened motion.
   static void lead_in(std::span<CablePaths* const> all, const SpanBlock& block);
   /// Ends a repeat of a lead-in and begins the next one, or the one that counts. further: see LooseCables::end_repeat().
   static void end_repeat(std::span<CablePaths* const> all, double further);
@@ -187,7 +188,8 @@ class CablePaths {
   void add_held(const SpanBlock& block);
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);
   void find_nodes(const SpanBlock& block, std::size_t sample);
-  void shorten_loose(std::size_t of_block);
+  double mean_twist(const SpanBlock& block, std::size_t of_block) const;
+  void shorten_loose(double twist);
   void feed_slack(double step);
   void see_gain(Cable& cable, std::size_t sample, double gain, double relief);
   void see_gains(const std::vector<HoseNode>& nodes, std::size_t of_block);

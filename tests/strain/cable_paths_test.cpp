@@ -668,6 +668,33 @@ TEST_CASE("the same cables come out in blocks of any size") {
   CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
 }
 
+TEST_CASE("a block of a lead-in may have more samples than the history of the cables") {
+  constexpr std::size_t samples = 4, before = 128;
+  Dresspack dresspack = thesis_hose();
+  dresspack.components[0].laying.slack = 0.5;
+  const Construction construction(dresspack, Kinematics::exact);
+  const std::vector<double> arcs = Run::centres();
+  const auto tension_after = [&](std::size_t in_block) {  // samples of a block of the lead-in
+    CablePaths paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length),
+                     {.rub = true, .elements_per_segment = 1}, std::vector<double>(segments, length / segments), arcs,
+                     samples);
+    const auto block_from = [&](std::size_t first, std::size_t count) {
+      DeformationHistory block(segments, count);
+      for (std::size_t t = 0; t < count; ++t)
+        for (std::size_t i = 0; i < segments; ++i)
+          block.set(i, t, swing(arcs[i] / length, static_cast<double>(first + t) / before));
+      return block;
+    };
+    CablePaths* const all = &paths;
+    for (std::size_t first = 0; first < before; first += in_block)
+      CablePaths::lead_in({&all, 1}, {block_from(first, in_block)});
+    paths.add({block_from(0, samples)});
+    paths.finish();
+    return pulls_of(paths).tension;
+  };
+  CHECK(tension_after(before) == tension_after(samples));
+}
+
 TEST_CASE(
     "equal cables rest at shared places, those that differ in slack or pressure do not, and all get what they get alone") {
   const auto hose = [](double load, double slack) {
