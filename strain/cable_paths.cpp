@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/cable/shares.h"
 #include "pipeline/job/strain.h"
 
@@ -492,22 +492,24 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
 
 namespace {
 
-/// Sum of (range between turning points)^8.
+/// Sum of (range between turning points)^8. The first and the last value are turning points.
 class BendingSum {
  public:
+  explicit BendingSum(double first) : last_(first), turned_at_(first) {}
   void add(double curvature) {
     if ((curvature - last_) * direction_ < 0) {
-      const double range = last_ - turned_at_, square = range * range;
-      sum_ += square * square * square * square;
+      sum_ += range();
       turned_at_ = last_;
     }
     if (curvature != last_) direction_ = curvature - last_;
     last_ = curvature;
   }
-  double sum() const { return sum_; }
+  double sum() const { return sum_ + range(); }
 
  private:
-  double last_ = 0, turned_at_ = 0, direction_ = 0, sum_ = 0;
+  double range() const { return std::pow(last_ - turned_at_, 8); }
+
+  double last_, turned_at_, direction_ = 0, sum_ = 0;
 };
 
 }  // namespace
@@ -525,12 +527,14 @@ void CablePaths::find_bent() {
     for (std::size_t k = 0; k < loosened_.size(); ++k) {
       curvature_->read(wires_at(segment), 2 * k, 0, next_, one.data());
       curvature_->read(wires_at(segment), 2 * k + 1, 0, next_, other.data());
-      std::array<BendingSum, 4> sums;
-      for (std::size_t t = 0; t < next_; ++t) {
-        sums[0].add(one[t]), sums[1].add(other[t]);
-        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2), sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
+      double most = 0;
+      for (int direction = 0; direction < 4; ++direction) {
+        const double c = std::cos(direction * pi / 4), s = std::sin(direction * pi / 4);
+        BendingSum sum(c * one[0] + s * other[0]);
+        for (std::size_t t = 1; t < next_; ++t) sum.add(c * one[t] + s * other[t]);
+        most = std::max(most, sum.sum());
       }
-      bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
+      bending_sums_.push_back(most);
     }
 }
 

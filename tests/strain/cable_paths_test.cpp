@@ -695,6 +695,35 @@ TEST_CASE("a block of a lead-in may have more samples than the history of the ca
   CHECK(tension_after(before) == tension_after(samples));
 }
 
+TEST_CASE("cables bend most where their curvature changes, not where it is large, and one change is enough") {
+  constexpr std::size_t samples = 20;
+  Dresspack dresspack = thesis_hose();
+  dresspack.core_diameter = 0;
+  dresspack.components[0].count = 1;  // on the axis, where no bend strains or compresses it
+  dresspack.components[0].helix_radius = 0;
+  const Construction construction(dresspack, Kinematics::exact);
+  const std::vector<double> arcs = Run::centres();
+  CablePaths paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length),
+                   {.rub = true, .elements_per_segment = 1}, std::vector<double>(segments, length / segments), arcs,
+                   samples);
+  const auto history = [&](double change) {  // in each sample [1/m]
+    DeformationHistory history(segments, samples);
+    for (std::size_t t = 0; t < samples; ++t)
+      for (std::size_t i = 0; i < segments; ++i) {
+        const double z = arcs[i] / length, bump = std::pow(std::sin(2 * pi * z), 2);
+        history.set(i, t, {(z < 0.5 ? 2 : change * static_cast<double>(t)) * bump, 0, 0, 0});
+      }
+    return history;
+  };
+  CablePaths* const all = &paths;
+  for (int k = 0; k < 50; ++k) CablePaths::lead_in({&all, 1}, {history(0)});
+  paths.add({history(0.02)});
+  paths.find_bent();
+  CHECK(paths.any_loose());
+  CHECK(paths.bent_most(segments / 4).empty());
+  CHECK_FALSE(paths.bent_most(segments - segments / 4).empty());
+}
+
 TEST_CASE(
     "equal cables rest at shared places, those that differ in slack or pressure do not, and all get what they get alone") {
   const auto hose = [](double load, double slack) {
