@@ -85,6 +85,8 @@ struct Context {
     return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
   }
 
+  /// Returns the number of a segment in its dresspack, counted from 1 at the tool.
+  std::size_t number_from_tool(std::size_t segment) const { return segments_of(dresspack[segment]).end - segment; }
   /// Returns the distance along the dresspack from the place where a segment's wires are evaluated to the tool clamp [m].
   double from_tool(std::size_t segment) const {
     const auto [first, end] = segments_of(dresspack[segment]);
@@ -333,7 +335,7 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.life_hours = hours(worst.repeats, c.repeat_seconds());
   worst.life_months = pipeline::months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
   const std::size_t segment = c.sites.segment(site);
-  worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
+  worst.segment_from_tool = double(c.number_from_tool(segment));
   worst.position_from_tool = c.from_tool(segment);
   worst.component = c.component[site];
   const auto most = std::ranges::max_element(cycles, [](const auto& a, const auto& b) { return a.damage < b.damage; });
@@ -804,7 +806,7 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
         fmt::format(
             "{} of the cycles of {} tear it on their first reversal (strain range up to {:.3g}), in segment {} from the tool",
             torn, c.component[c.worst], c.damage.range[c.worst],
-            static_cast<int>(c.segment_length.size()) - c.sites.segment(c.worst)),
+            c.number_from_tool(static_cast<std::size_t>(c.sites.segment(c.worst)))),
         sticks ? "its parts stick to each other (strain.slip is stick)"
                : "the dresspack bends too tightly, or a lay is too long or missing",
         sticks

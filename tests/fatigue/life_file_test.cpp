@@ -653,7 +653,17 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
   CHECK(FileReader(torn.file, pipeline::life_format()).number_attribute("life_repeats") == 0.5);
   REQUIRE(torn.notes.warnings.size() == 1);
   CHECK_THAT(torn.notes.warnings[0].words,
-             Catch::Contains("1 of the cycles of cable 1/layer 1/wire 1 tear it on their first reversal"));
+             Catch::Contains("1 of the cycles of cable 1/layer 1/wire 1 tear it on their first reversal") &&
+                 Catch::Contains("in segment 4 from the tool"));
+
+  pipeline::Job two = test_job();  // the first dresspack has three of the four segments
+  two.dresspacks.push_back(two.dresspacks[0]);
+  two.dresspacks[1].name = "other";
+  two.dresspacks[0].routing.free_length = 0.6, two.dresspacks[1].routing.free_length = 0.4;
+  absurd.dresspacks = {0, 0, 0, 1};
+  const Result first = run(folder, absurd, two, "first.h5");
+  REQUIRE(first.notes.warnings.size() == 1);
+  CHECK_THAT(first.notes.warnings[0].words, Catch::Contains("in segment 3 from the tool"));
 }
 
 TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is warned of") {
