@@ -29,7 +29,8 @@ using Parameters =
 constexpr std::size_t starts_parameter = index_of(Uncertain::rest), slack_parameter = index_of(Uncertain::slack),
                       stiffness_parameter = index_of(Uncertain::hose_stiffness);
 
-/// Forces of the cables at one variation. Forces do not depend on the friction inside cables.
+/// Forces of the cables at one variation. In a hose they do not depend on the friction inside. Those without a hose at another friction
+/// inside are not compared with limits.
 struct VariedForces {
   std::array<double, pipeline::strain_parameters> z{};
   std::size_t rest = 0;

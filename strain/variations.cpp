@@ -64,7 +64,17 @@ bool any_component(const pipeline::Job& job, const std::function<bool(const pipe
 
 bool has_slack(const pipeline::Component& part) { return part.laying.slack > 0; }
 bool has_grip(const pipeline::Component& part) { return part.laying.base_grip || part.laying.tool_grip; }
-bool rubs_on_hose(const pipeline::Component& part) { return !part.components.empty() && part.friction.value_or(0) > 0; }
+
+/// Returns whether cables rub in a dresspack with or without a hose around them. On a hose they have the friction along the hose,
+/// otherwise the friction inside (Construction::scale()).
+bool any_cable_rubs(const pipeline::Job& job, bool in_hose) {
+  return rubs(job.strain.slip.front()) && std::ranges::any_of(job.dresspacks, [&](const auto& mounted) {
+           return pipeline::inner_radius(mounted.dresspack).has_value() == in_hose &&
+                  std::ranges::any_of(mounted.dresspack.components, [](const pipeline::Component& part) {
+                    return !part.components.empty() && part.friction.value_or(0) > 0;
+                  });
+         });
+}
 
 // z of the nodes
 constexpr std::array slacks{low_slack, -1.25, Variations::reach};
@@ -76,16 +86,16 @@ bool is_varied(const pipeline::Job& job, Uncertain parameter) {
   if (!job.uncertainty.enabled || pipeline::is_known(job.uncertainty, parameter)) return false;
   if (parameter == Uncertain::slack) return any_component(job, has_slack);
   if (parameter == Uncertain::grip) return any_component(job, has_grip);
-  return rubs(job.strain.slip.front()) && std::ranges::any_of(job.dresspacks, [](const auto& mounted) {
-           return pipeline::inner_radius(mounted.dresspack) &&
-                  std::ranges::any_of(mounted.dresspack.components, rubs_on_hose);
-         });
+  return any_cable_rubs(job, true);
 }
 
 /// Returns the job's factors with one strain parameter at z.
 pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain parameter, double z) {
   const double by = pipeline::uncertain_parameters()[index_of(parameter)].value(z);
   switch (parameter) {
+    case Uncertain::friction_inside:
+      factors.friction *= by;
+      break;
     case Uncertain::friction_hose:
       factors.hose_friction *= by;
       break;
@@ -98,7 +108,6 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
     case Uncertain::grip:
       factors.grip *= by;
       break;
-    case Uncertain::friction_inside:
     case Uncertain::rest:
     case Uncertain::hose_stiffness:
     case Uncertain::strength:
@@ -126,23 +135,29 @@ std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> 
 }  // namespace
 
 std::size_t placements_at_most(const pipeline::Job& job) {
-  return (is_varied(job, Uncertain::slack) ? slacks.size() : 0) +
+  // z of friction inside that need their own places, alone and with another slack
+  const bool rubbing = job.uncertainty.enabled && any_cable_rubs(job, false);
+  const std::size_t alone = rubbing ? 3 : 0, with_slack = rubbing ? 2 : 0;
+  return alone + (is_varied(job, Uncertain::slack) ? slacks.size() * (1 + with_slack) : 0) +
          (is_varied(job, Uncertain::grip) ? both_sides.size() : 0) +
          (is_varied(job, Uncertain::friction_hose) ? both_sides.size() : 0);
 }
 
-std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans) {
-  if (std::ranges::none_of(spans, [](const auto& evaluation) { return evaluation->rubs_inside(); })) return {};
+std::vector<Variations::Friction> Variations::other_frictions(const pipeline::Job& job, const Spans& spans) {
+  const bool inside = std::ranges::any_of(spans, [](const auto& evaluation) { return evaluation->rubs_inside(); });
+  std::vector<Friction> all;
   // Small values of friction are needed, because there lives bend toward those without damage.
-  return {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
+  if (inside || any_cable_rubs(job, false)) all = {{-reach}, {-reach / 2}, {reach}};
+  if (inside) all.insert(all.end(), {{0, Inside::glued}, {0, Inside::free}});
+  return all;
 }
 
 Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Shortening& shortening,
                        const Build& build)
     : enabled_(job.uncertainty.enabled), as_given_(as_given), shortening_(shortening) {
   if (!job.uncertainty.enabled) return;
-  std::vector<Friction> all = other_frictions(as_given);
-  if (!all.empty()) add(as_given, {}, all);
+  std::vector<Friction> all = other_frictions(job, as_given);
+  if (!all.empty()) add(as_given, {}, all, rubbing(job, job.strain.factors, as_given, build));
   std::erase_if(all, [](const Friction& of) { return of.z == -reach / 2; });
   all.insert(all.begin(), Friction{});
   lay(job, build, Uncertain::slack, slacks, all);
@@ -153,9 +168,9 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Sh
 Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Shortening& shortening,
                        const Build& build)
     : enabled_(job.uncertainty.enabled), as_given_(laid), shortening_(shortening), stiffness_(stiffness) {
-  std::vector<Friction> all = other_frictions(laid);
+  std::vector<Friction> all = other_frictions(job, laid);
   all.insert(all.begin(), Friction{});
-  add(laid, {}, all);
+  add(laid, {}, all, rubbing(job, job.strain.factors, laid, build));
   std::erase_if(all, [](const Friction& of) { return of.z != 0; });  // the job's own friction, glued and free
   lay(job, build, Uncertain::slack, slacks_of_other_stiffness, all);
 }
@@ -169,12 +184,27 @@ void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain par
     Point point{};
     point[index_of(parameter)] = z;
     // Grips share the loose cables of as_given, which cost most, and so follow as many samples.
-    const Spans& placed = build(moved(job.strain.factors, parameter, z),
-                                parameter == Uncertain::grip ? as_given_.front()->samples() : shortening_.samples());
-    for (std::size_t span = 0; span < placed.size(); ++span)
-      if (placed[span]->samples() == as_given_[span]->samples()) placed[span]->share_loose(*as_given_[span]);
-    add(placed, point, friction);
+    const pipeline::StrainFactors factors = moved(job.strain.factors, parameter, z);
+    const Spans& placed =
+        build(factors, parameter == Uncertain::grip ? as_given_.front()->samples() : shortening_.samples());
+    share_loose(placed, as_given_);
+    add(placed, point, friction, rubbing(job, factors, placed, build));
   }
+}
+
+void Variations::share_loose(const Spans& spans, const Spans& others) {
+  for (std::size_t span = 0; span < spans.size(); ++span)
+    if (spans[span]->samples() == others[span]->samples()) spans[span]->share_loose(*others[span]);
+}
+
+Variations::Rubbing Variations::rubbing(const pipeline::Job& job, const pipeline::StrainFactors& factors,
+                                        const Spans& spans, const Build& build) {
+  if (!any_cable_rubs(job, false)) return nullptr;
+  return [factors, &spans, &build](double z) -> const Spans& {
+    const Spans& placed = build(moved(factors, Uncertain::friction_inside, z), spans.front()->samples());
+    share_loose(placed, spans);
+    return placed;
+  };
 }
 
 void Variations::go_on() const {
@@ -190,7 +220,7 @@ void Variations::add(const Starts& starts) {
       for (const std::size_t variation : placement.variation)
         rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
   for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
-    add(starts.spans(rest), {}, {{}});
+    add(starts.spans(rest), {}, {{}}, nullptr);
     rests_.back() = static_cast<std::int32_t>(rest);
   }
 }
@@ -201,17 +231,21 @@ double Variations::Friction::factor() const {
   return pipeline::uncertain_parameters()[index_of(Uncertain::friction_inside)].value(z);
 }
 
-void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& friction) {
+void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& friction, const Rubbing& rubbing) {
   Placement placement{&spans, {}, {}};
   for (const Friction& of : friction) {
-    placement.factors.push_back(of.factor());
-    placement.variation.push_back(points_.size());
+    if (rubbing && of.z != 0) {
+      placements_.push_back({&rubbing(of.z), {1}, {points_.size()}});
+    } else {
+      placement.factors.push_back(of.factor());
+      placement.variation.push_back(points_.size());
+    }
     z[index_of(Uncertain::friction_inside)] = of.z;
     points_.push_back(z);
     inside_.push_back(of.inside);
     rests_.push_back(0);
   }
-  placements_.push_back(std::move(placement));
+  if (!placement.factors.empty()) placements_.push_back(std::move(placement));
 }
 
 std::vector<Evaluation*> Variations::placed(std::size_t span) const {

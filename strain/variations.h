@@ -6,8 +6,9 @@
 // (pipeline/life/life_response.h). Friction along the hose and grips are varied one by one. Friction inside is also set to zero and
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
-// friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
-// likely worst wires of the cables that bend most there are added. A parameter whose spread is 1 is known and has no variations.
+// friction inside, and also for this where it acts on cables, because no hose surrounds them. The wires are the likely worst ones of
+// each segment and layer of the job itself. If cables lie elsewhere, the likely worst wires of the cables that bend most there are
+// added. A parameter whose spread is 1 is known and has no variations.
 #pragma once
 
 #include <array>
@@ -102,8 +103,13 @@ class Variations {
   };
   /// Returns whether the cables of a placement do not lie where those of the job itself lie. Then other wires can be the worst.
   bool lies_elsewhere(const Placement& placement) const;
-  static std::vector<Friction> other_frictions(const Spans& spans);
-  void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
+  static std::vector<Friction> other_frictions(const pipeline::Job& job, const Spans& spans);
+  /// Returns the evaluations with friction inside at z; null: friction inside does not act on cables.
+  using Rubbing = std::function<const Spans&(double z)>;
+  static Rubbing rubbing(const pipeline::Job& job, const pipeline::StrainFactors& factors, const Spans& spans,
+                         const Build& build);
+  static void share_loose(const Spans& spans, const Spans& others);
+  void add(const Spans& spans, Point z, const std::vector<Friction>& friction, const Rubbing& rubbing);
   /// Adds an evaluation with another value of a parameter than as_given_.
   void lay(const pipeline::Job& job, const Build& build, pipeline::Uncertain parameter, std::span<const double> nodes,
            const std::vector<Friction>& friction);
