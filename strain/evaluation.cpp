@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "pipeline/base/constants.h"
@@ -606,12 +608,21 @@ std::vector<const Evaluation::Worst*> Evaluation::of_wires(const std::vector<Wor
 
 void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
   likely_.clear();
-  float most = 0;
-  for (const Worst* const layer : wires) most = std::max(most, layer->value[Worst::cycles]);
+  const auto kind_of = [&](const Worst* worst) {  // its failure mode and what its wires withstand
+    const Layer& wire = construction_.layers()[wires_[worst->site[Worst::range].wire].layer];
+    const Layer* outermost = &wire;
+    while (outermost->parent != dresspack_itself) outermost = &construction_.layers()[outermost->parent];
+    return std::pair<std::string_view, std::string_view>(outermost->name, wire.material);
+  };
+  std::map<std::pair<std::string_view, std::string_view>, float> most;
+  for (const Worst* const layer : wires) {
+    float& of = most[kind_of(layer)];
+    of = std::max(of, layer->value[Worst::cycles]);
+  }
   constexpr float near =
       1e-2f;  // share of a sum of sixth powers: layers with less than half of the largest strain are dropped
   for (const Worst* const layer : wires) {
-    if (layer->value[Worst::cycles] < near * most) continue;
+    if (layer->value[Worst::cycles] < near * most[kind_of(layer)]) continue;
     for (const Worst::By by : {Worst::range, Worst::range_times_tension}) likely_.push_back(layer->site[by]);
     constexpr std::size_t by_cycles = 2;
     const auto& list = layer->by_sum.front();

@@ -166,7 +166,8 @@ class Evaluation {
 
   /// Returns whether friction holds any strain inside the cables.
   bool rubs_inside() const;
-  /// Returns the sites of which one can have the largest damage of the segment, whatever the material and the other inputs.
+  /// Returns the sites of which one can have the largest damage of the segment among the wires of one material in the components
+  /// of one name, whatever the other inputs.
   /// Precondition: evaluate() was called for this segment last.
   const std::vector<Site>& likely_worst() const { return likely_; }
   /// Returns the likely worst sites at a rest that is not the job's own. Scans only the cables that bend most. Precondition: find_bent().

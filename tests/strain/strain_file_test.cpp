@@ -584,6 +584,35 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
 }
 
 TEST_CASE(
+    "every variation has wires of every component in every segment, however small their strains are beside others") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  std::string text = replaced(pipeline::sample_job, "material: copper}",
+                              "material: copper, friction_coefficient: 0.3, radial_line_load_N_per_m: 60}");
+  // A cable on the axis has none of the strain by which the bend stretches the others.
+  const std::string middle =
+      "    - name: middle\n      radius_mm: 5\n      helix_radius_mm: 0\n      components:\n"
+      "        - {name: wire, count: 6, radius_mm: 0.1, helix_radius_mm: 2.5, lay_angle_deg: 25, material: copper,\n"
+      "           friction_coefficient: 0.3, radial_line_load_N_per_m: 60}\n";
+  text = replaced(text, "routing:\n", middle + "routing:\n");
+  text = replaced(text, "slip: [stick, free]", "slip: [stick, friction]");
+  evaluate(scratch / "motion.h5", scratch / "strain.h5",
+           pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {"uncertainty.enabled=true"}));
+  const FileReader file(scratch / "strain.h5", pipeline::strain_format());
+  const auto component = file.read<std::string>("/site/component");
+  const auto segment = file.read<std::int32_t>("/site/segment");
+  const auto variation = file.read<std::uint32_t>("/variation/row/variation"),
+             site = file.read<std::uint32_t>("/variation/row/site");
+  std::map<std::string, std::set<std::pair<std::uint32_t, std::int32_t>>> rows;  // (component)
+  for (std::size_t row = 0; row < site.size(); ++row)
+    rows[component[site[row]].substr(0, component[site[row]].find(' '))].insert({variation[row], segment[site[row]]});
+  const std::size_t all = file.rows("/variation/inside") * segments;
+  CHECK(all > 0);
+  CHECK(rows["cable"].size() == all);
+  CHECK(rows["middle"].size() == all);
+}
+
+TEST_CASE(
     "a force that exceeds its limit only with another slack causes a warning with this slack, the share of dresspacks and a remedy") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
