@@ -221,8 +221,6 @@ Command improve_command() {
                           "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
                           "variable",
                           &request.short_runs, -1, 100'000),
-            choice_option("--method", "models of lives and limits, or random trials for comparison", request.method,
-                          {SearchMethod::surrogate, SearchMethod::random}),
             choice_option("--second", "a second aim, to be small: the answer is the front of both", request.second,
                           {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
             number_option(

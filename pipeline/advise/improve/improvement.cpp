@@ -10,7 +10,6 @@
 #include "pipeline/advise/improve/faults.h"
 #include "pipeline/advise/improve/obstacle.h"
 #include "pipeline/advise/improve/reliefs.h"
-#include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
@@ -185,8 +184,6 @@ class Improver {
 
   std::unique_ptr<Search> made_search() {
     const Screen screen = [this](const std::vector<VectorXd>& places) { return surely_beyond(places); };
-    if (request_.method == SearchMethod::random)
-      return std::make_unique<RandomSearch>(freedom_.variables(), request_.seed, screen);
     const SurrogateSettings settings{
         .seed = request_.seed, .aims = aims(), .short_runs = std::max(0, request_.short_runs)};
     done_.most_short_runs = request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());

@@ -24,9 +24,6 @@
 
 namespace dresslife::pipeline {
 
-enum class SearchMethod { surrogate, random };
-constexpr std::string_view word(SearchMethod value) { return word_at({"surrogate", "random"}, value); }
-
 /// The second objective, in addition to a long life.
 enum class SecondAim { none, hose_length, cycle_time };
 constexpr std::string_view word(SecondAim value) { return word_at({"none", "hose_length", "cycle_time"}, value); }
@@ -40,7 +37,6 @@ struct ImproveRequest {
   int trials = 12;
   int at_a_time = 4;  ///< number of trials that are proposed together; the search depends on it
   std::uint64_t seed = 1;
-  SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
   std::optional<double> longest_bracket{};  ///< replaces the jobs' value [m]
   int short_runs =

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "pipeline/advise/search/minimise.h"
-#include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/random.h"
 #include "tests/catch.h"
 
 using namespace dresslife;
@@ -122,6 +122,31 @@ const ShortRuns short_runs_of_springs = [](const std::vector<VectorXd>& places) 
 
 const Screen nothing_rejected = [](const std::vector<VectorXd>& places) {
   return std::vector<double>(places.size(), 0.0);
+};
+
+/// Uniform random candidates: the baseline for other searches.
+class RandomSearch : public Search {
+ public:
+  /// screen: of some draws for each candidate, the one with the smallest violation is returned.
+  RandomSearch(Eigen::Index variables, std::uint64_t seed, Screen screen)
+      : variables_(variables), numbers_(seed), screen_(std::move(screen)) {}
+  std::vector<VectorXd> ask(int count) override {
+    std::vector<VectorXd> places;
+    while (places.size() < static_cast<std::size_t>(count)) {
+      std::vector<VectorXd> drawn(16, VectorXd(variables_));
+      for (VectorXd& place : drawn)
+        for (double& u : place) u = numbers_.uniform();
+      const std::vector<double> beyond = screen_(drawn);
+      places.push_back(drawn[static_cast<std::size_t>(std::ranges::min_element(beyond) - beyond.begin())]);
+    }
+    return places;
+  }
+  void tell(const std::vector<Candidate>&) override {}
+
+ private:
+  Eigen::Index variables_;
+  RandomNumbers numbers_;
+  Screen screen_;
 };
 
 std::vector<Candidate> searched(Search& search, const Problem& problem, int candidates, int at_a_time) {
