@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <set>
 #include <string_view>
 #include <thread>
 
@@ -125,8 +124,8 @@ constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife n
 /// (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
-  static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf",
-                                              ".src", ".dat",  ".ls",  ".jbi", ".script"};
+  static const WordSet programs =
+      word_set(".mod .modx .prg .sys .sysx .pgf .src .dat .sub .ls .va .jbi .cnd .script .urscript");
   if (programs.contains(end)) return &program_kind;
   if (end == ".urdf" || end == ".xacro") return &robot_kind;
   if (end == ".h5" || end == ".hdf5") return &result_kind;

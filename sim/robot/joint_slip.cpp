@@ -73,7 +73,7 @@ std::string joint_slip(const pipeline::Motion& motion, const pipeline::Robot& ro
   // Of a program that has radians elsewhere, only the targets that turn too far are degrees.
   for (const double least : {0.0, turns})
     if (farthest > turns && found.empty())
-      try_one(motion.steps.front().where.file.ends_with(".script")
+      try_one(motion.steps.front().where.file.ends_with("script")
                   ? fmt::format("the angles are degrees, read as radians (write d2r({0:g}) for {0:g})", farthest)
                   : "the angles are degrees, read as radians",
               [least](auto& joints) {

@@ -346,6 +346,12 @@ const Wrong wrong[] = {
      "dresslife run machine.urdf"},
     {"", "", "", "machine.xacro: error: ", "is a robot description (URDF)", "dresslife new --robot FILE JOB.yaml",
      "dresslife check machine.xacro"},
+    {"", "", "", "x.urscript: error: ", "is a robot program, not a YAML file", "dresslife new --program FILE JOB.yaml",
+     "dresslife run x.urscript"},
+    {"", "", "", "x.SYSX: error: ", "is a robot program, not a YAML file", "dresslife new --program FILE JOB.yaml",
+     "dresslife check x.SYSX"},
+    {"", "", "", "x.sub: error: ", "is a robot program, not a YAML file", "dresslife new --program FILE JOB.yaml",
+     "dresslife run x.sub"},
     {"job.yaml", "dresspack: hose.yaml", "dresspack: machine.urdf",
      "job.yaml:9:12: error: ", "'machine.urdf' is a robot description (URDF)", "write it after 'robot:'"},
     {"job.yaml", "dresspack: hose.yaml", "dresspack: spot.mod",
@@ -439,6 +445,7 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("krl.yaml", krl_job);
   scratch.write("machine.urdf", "<robot name=\"arm\"/>\n");
   scratch.write("machine.xacro", "<robot name=\"arm\"/>\n");
+  for (const char* program : {"x.urscript", "x.SYSX", "x.sub"}) scratch.write(program, "");
   const std::size_t motion = job.find("motion:"), after = job.find("dresspack:");
   scratch.write("module.yaml", job.substr(0, motion) + "motion: {program: spot.mod}\n" + job.substr(after));
   scratch.write("axes.yaml", job.substr(0, motion) + "motion: {program: axes.csv}\n" + job.substr(after));

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/program_files.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/tokens.h"
@@ -86,10 +87,9 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
   CallGraph graph;
   std::map<std::string, fs::path> file_of;
   for (const fs::path& file : files) {
-    const std::string end = lower_case(file.extension().string());
-    if ((end != ".src" && end != ".dat" && end != ".sub") || lies_in(file, folder, foreign)) continue;
+    if (!pipeline::is_krl(file) || lies_in(file, folder, foreign)) continue;
     backup.files.push_back(file);
-    if (end == ".src" && !lies_in(file, folder, system_folders) && !system_programs.contains(stem_of(file)))
+    if (is_program(file) && !lies_in(file, folder, system_folders) && !system_programs.contains(stem_of(file)))
       if (Calls calls = calls_of(file); !calls.name.empty()) {
         file_of.emplace(calls.name, file);
         graph[calls.name] = std::move(calls);

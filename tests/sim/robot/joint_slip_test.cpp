@@ -40,9 +40,11 @@ TEST_CASE("joint slip: exactly one exchange, sign or unit that keeps all limits 
           for (double& angle : joints) angle *= 180 / std::numbers::pi;
         }) == "the angles are degrees, read as radians");
   pipeline::Motion mixed = timed({{0.5, 0.2, -0.8, 0.5, 0.6, 0.7}, {30, 40, -50, 40, 45, 50}});
-  mixed.steps.front().where.file = "cell.script";
   robot.joints[1].lower = 0.1;  // radians of the first target, taken as degrees, are below it
-  CHECK(joint_slip(mixed, robot) == "the angles are degrees, read as radians (write d2r(50) for 50)");
+  for (const char* program : {"cell.script", "cell.urscript"}) {
+    mixed.steps.front().where.file = program;
+    CHECK(joint_slip(mixed, robot) == "the angles are degrees, read as radians (write d2r(50) for 50)");
+  }
   robot.joints[1].lower = -0.11;
   CHECK(slip([](auto& joints) { joints[4] *= -1, joints[3] *= -1; }).empty());  // one correction is not enough
   robot.joints[0].speed = 0.2;  // the others move too fast for this axis
