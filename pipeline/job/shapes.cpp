@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -9,6 +12,22 @@ namespace dresslife::pipeline {
 Eigen::Quaterniond from_roll_pitch_yaw(const Vector3d& angles) {
   return Eigen::AngleAxisd(angles.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vector3d::UnitY()) *
          Eigen::AngleAxisd(angles.x(), Vector3d::UnitX());
+}
+
+double distance_from(const std::vector<Capsule>& capsules, const std::vector<Box>& boxes, const Vector3d& point) {
+  double nearest = HUGE_VAL;
+  for (const Capsule& capsule : capsules) {
+    const Vector3d axis = capsule.to - capsule.from;
+    const double square = axis.squaredNorm();
+    const double share = square > 0 ? std::clamp((point - capsule.from).dot(axis) / square, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (point - capsule.from - share * axis).norm() - capsule.radius);
+  }
+  for (const Box& box : boxes) {
+    const Vector3d local = from_roll_pitch_yaw(box.orientation).conjugate() * (point - box.position);
+    const Vector3d beyond = local.cwiseAbs() - box.sides / 2;
+    nearest = std::min(nearest, beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : beyond.maxCoeff());
+  }
+  return nearest;
 }
 
 void describe(Fields& f, Capsule& capsule) {

@@ -45,6 +45,9 @@ struct Cell {
   std::vector<MeshFile> meshes;
 };
 
+/// Returns the distance of a point in the shapes' frame from the nearest surface [m]; negative: depth inside; HUGE_VAL: no shapes.
+double distance_from(const std::vector<Capsule>& capsules, const std::vector<Box>& boxes, const Vector3d& point);
+
 void describe(Fields& f, Capsule& capsule);
 void describe(Fields& f, Box& box);
 void describe(Fields& f, MeshFile& mesh);

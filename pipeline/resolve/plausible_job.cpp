@@ -679,17 +679,12 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
 
 /// Returns the origins of the frames of a robot's base and of its first two joints in the zero pose: points inside of the robot.
 std::vector<std::pair<std::string, Eigen::Vector3d>> points_in(const Robot& robot) {
-  const auto turn = [](const Eigen::Vector3d& angles) {  // roll, pitch, yaw about fixed axes x, y, z
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
-                              Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-                              Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()));
-  };
   Eigen::Vector3d at = robot.base_position;
-  Eigen::Quaterniond orientation = turn(robot.base_orientation);
+  Eigen::Quaterniond orientation = from_roll_pitch_yaw(robot.base_orientation);
   std::vector<std::pair<std::string, Eigen::Vector3d>> points{{"the robot's base", at}};
   for (std::size_t k = 0; k < std::min<std::size_t>(2, robot.joints.size()); ++k) {
     at += orientation * robot.joints[k].origin;
-    orientation = orientation * turn(robot.joints[k].orientation);
+    orientation = orientation * from_roll_pitch_yaw(robot.joints[k].orientation);
     points.emplace_back(robot.joints[k].name + " in the zero pose", at);
   }
   return points;
@@ -703,8 +698,7 @@ void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
     const Box& box = cell.boxes[k];
     if (!box.orientation.isZero()) continue;
     for (const auto& [name, point] : points_in(robot)) {
-      const Eigen::Vector3d off = (point - box.position).cwiseAbs() - box.sides / 2;
-      if (off.maxCoeff() >= -inside_robot) continue;
+      if (distance_from({}, {box}, point) >= -inside_robot) continue;
       add({},
           fmt::format("cell.boxes[{}] contains {} at [{:.3g}, {:.3g}, {:.3g}] m", k + 1, name, point.x(), point.y(),
                       point.z()),
@@ -1289,17 +1283,8 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
 std::optional<double> distance_to(const Robot& robot, const std::string& name, const Vector3d& point) {
   const auto link = std::ranges::find(robot.links, name, &Link::name);
   if (link == robot.links.end() || !link->meshes.empty()) return {};
-  double nearest = &*link == &robot.links.back() ? (point - robot.flange_position).norm() : HUGE_VAL;
-  for (const Capsule& capsule : link->capsules) {
-    const Vector3d along = capsule.to - capsule.from;
-    const double square = along.squaredNorm();
-    const double share = square > 0 ? std::clamp((point - capsule.from).dot(along) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (point - capsule.from - share * along).norm() - capsule.radius);
-  }
-  for (const Box& box : link->boxes) {
-    const Vector3d inside = from_roll_pitch_yaw(box.orientation).conjugate() * (point - box.position);
-    nearest = std::min(nearest, (inside.cwiseAbs() - box.sides / 2).cwiseMax(0).norm());
-  }
+  double nearest = distance_from(link->capsules, link->boxes, point);
+  if (&*link == &robot.links.back()) nearest = std::min(nearest, (point - robot.flange_position).norm());
   return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
 }
 

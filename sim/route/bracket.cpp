@@ -29,14 +29,7 @@ struct Solid {
 
   bool empty() const { return capsules.empty() && boxes.empty() && meshes.empty(); }
   double distance(const Vector3& point, double most) const {
-    double nearest = most;
-    for (const pipeline::Capsule& capsule : capsules)
-      nearest = std::min(nearest, distance_to_axis(point, capsule.from, capsule.to) - capsule.radius);
-    for (const pipeline::Box& box : boxes) {
-      const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(box.orientation);
-      const Vector3 beyond = (turn.conjugate() * (point - box.position)).cwiseAbs() - box.sides / 2;
-      nearest = std::min(nearest, beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : beyond.maxCoeff());
-    }
+    double nearest = std::min(most, pipeline::distance_from(capsules, boxes, point));
     for (const PlacedMesh& placed : meshes) {
       const Vector3 local = placed.frame.orientation.conjugate() * (point - placed.frame.position);
       if (local.norm() - placed.mesh.radius() > nearest) continue;

@@ -163,31 +163,7 @@ double curvature_at_rest(const Thread& thread, const Frames& frames) {
   return most;
 }
 
-/// Returns the depth of a sphere in a box about its frame [m]; negative: distance outside.
-double depth_in_box(const Vector3& point, double radius, const Frame& frame, const Vector3& sides) {
-  const Vector3 beyond = (frame.orientation.conjugate() * (point - frame.position)).cwiseAbs() - sides / 2;
-  return radius - (beyond.maxCoeff() > 0 ? beyond.cwiseMax(0).norm() : beyond.maxCoeff());
-}
-
-template <class Shapes>
-double depth_in(const Shapes& shapes, const Vector3& point, double radius) {
-  double depth = unasked;
-  for (const pipeline::Capsule& capsule : shapes.capsules)
-    depth = std::max(depth, radius + capsule.radius - distance_to_axis(point, capsule.from, capsule.to));
-  for (const pipeline::Box& box : shapes.boxes)
-    depth =
-        std::max(depth, depth_in_box(point, radius, {box.position, from_roll_pitch_yaw(box.orientation)}, box.sides));
-  return depth;
-}
-
 }  // namespace
-
-double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to) {
-  const Vector3 axis = to - from;
-  const double length = axis.squaredNorm();
-  const double share = length > 0 ? std::clamp((point - from).dot(axis) / length, 0.0, 1.0) : 0;
-  return (point - from - share * axis).norm();
-}
 
 bool Screening::rejected() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
@@ -317,17 +293,19 @@ double Screener::Parts::depth(const pipeline::Setup& setup, const Thread& thread
   const double radius = p.diameter / 2, spacing = p.length / static_cast<double>(points.size());
   const auto held = static_cast<std::size_t>(std::ceil(1.5 * p.diameter / spacing));
   double deepest = unasked;
+  const auto meet = [&](const auto& shapes, const Vector3& point) {
+    deepest = std::max(deepest, radius - pipeline::distance_from(shapes.capsules, shapes.boxes, point));
+  };
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (setup.simulation.floor) deepest = std::max(deepest, radius - points[i].z());
     if (!setup.simulation.contact) continue;
-    deepest = std::max(deepest, depth_in(setup.cell, points[i], radius));
+    meet(setup.cell, points[i]);
     for (std::size_t link = 0; link < moment.links.size(); ++link) {
       const int of = static_cast<int>(link);
       if (i < held && of == thread.nodes.front().link) continue;
       if (i + held >= points.size() && of == thread.nodes.back().link) continue;
       const Frame& frame = moment.links[link];
-      const Vector3 local = frame.orientation.conjugate() * (points[i] - frame.position);
-      deepest = std::max(deepest, depth_in(setup.robot.links[link], local, radius));
+      meet(setup.robot.links[link], frame.orientation.conjugate() * (points[i] - frame.position));
     }
   }
   return deepest;

@@ -46,9 +46,6 @@ constexpr std::string_view word(ScreenedLimit value) {
 inline constexpr std::array<double, screened_limits> surely_beyond{
     0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0};
 
-/// Returns the distance of a point from the nearest point of the line between two others [m].
-double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3& to);
-
 /// Results of the worst span or dresspack for each limit.
 struct Screening {
   std::array<double, screened_limits> beyond;  ///< (limit) g; the most negative number if the limit is not requested
