@@ -35,24 +35,6 @@ std::string without_thousands(const std::string& text) {
   return plain + '.' + text.substr(decimal + 1);
 }
 
-/// Returns the position of the first byte that is not UTF-8; the size of the text if all bytes are.
-std::size_t first_no_utf8(const std::string& text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[at]);
-    const std::size_t length = byte < 0x80   ? 1
-                               : byte < 0xC2 ? 0
-                               : byte < 0xE0 ? 2
-                               : byte < 0xF0 ? 3
-                               : byte < 0xF5 ? 4
-                                             : 0;
-    if (length == 0) return at;
-    for (std::size_t k = 1; k < length; ++k)
-      if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return at;
-    at += length;
-  }
-  return text.size();
-}
-
 std::optional<Day> day_in_order(int year, int month, int day) {
   return day_from(fmt::format("{:04}-{:02}-{:02}", year, month, day));
 }

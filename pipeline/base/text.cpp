@@ -49,6 +49,23 @@ std::vector<std::string_view> words_in(std::string_view text, std::string_view b
   return words;
 }
 
+std::size_t first_no_utf8(std::string_view text) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(at < text.size() ? text[at] : 0); };
+  for (std::size_t at = 0, length = 1; at < text.size(); at += length) {
+    const unsigned char first = byte(at), second = byte(at + 1);
+    length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    if (length == 1) continue;
+    if (first < 0xC2 || first > 0xF4) return at;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(at + k) & 0xC0) != 0x80) return at;
+    // Wrong: an overlong form, a surrogate, above U+10FFFF.
+    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) || (first == 0xF0 && second < 0x90) ||
+        (first == 0xF4 && second > 0x8F))
+      return at;
+  }
+  return text.size();
+}
+
 std::string shell_word(std::string_view text) {
   std::string word = "'";
   for (const char letter : text) word += letter == '\'' ? "'\\''" : std::string(1, letter);

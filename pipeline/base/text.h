@@ -21,6 +21,10 @@ std::string_view trimmed(std::string_view text);
 /// Returns the words of a text that one or more blanks separate. They point into the text.
 std::vector<std::string_view> words_in(std::string_view text, std::string_view blanks = " \t\r\n");
 
+/// Returns the position of the first byte that begins no well-formed sequence of UTF-8 (The Unicode Standard 15, section 3.9, and
+/// RFC 3629); the size of the text: there is none.
+std::size_t first_no_utf8(std::string_view text);
+
 /// Returns any text quoted as one word of a shell.
 std::string shell_word(std::string_view text);
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "pipeline/base/text.h"
+
 namespace dresslife::sim {
 namespace {
 
@@ -32,20 +34,6 @@ void append(std::string& text, std::uint32_t letter) {
     text += static_cast<char>(0xF0 | letter >> 18);
     tail(12), tail(6), tail(0);
   }
-}
-
-/// Returns the number of bytes of the well-formed sequence that begins at `at`; 0: none.
-std::size_t sequence_length(const std::string& bytes, std::size_t at) {
-  const std::uint8_t first = byte_at(bytes, at);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || at + length > bytes.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k)
-    if ((byte_at(bytes, at + k) & 0xC0) != 0x80) return 0;
-  const std::uint8_t second = byte_at(bytes, at + 1);  // wrong: an overlong form, a surrogate, above U+10FFFF
-  const bool wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-  return wrong ? 0 : length;
 }
 
 std::string from_utf16(const std::string& bytes, std::size_t begin, bool big_endian) {
@@ -92,15 +80,6 @@ bool every_other_byte_is_zero(const std::string& bytes, std::size_t first) {
 
 }  // namespace
 
-bool is_utf8(const std::string& bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t length = sequence_length(bytes, at);
-    if (length == 0) return false;
-    at += length;
-  }
-  return true;
-}
-
 std::string decoded_text(std::string bytes) {
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes, 2, false);
@@ -108,7 +87,7 @@ std::string decoded_text(std::string bytes) {
   if (every_other_byte_is_zero(bytes, 1)) return from_utf16(bytes, 0, false);
   if (every_other_byte_is_zero(bytes, 0)) return from_utf16(bytes, 0, true);
   if (bytes.find('\n') == std::string::npos) std::ranges::replace(bytes, '\r', '\n');  // old line ends
-  return is_utf8(bytes) ? bytes : from_single_bytes(bytes);
+  return pipeline::first_no_utf8(bytes) == bytes.size() ? bytes : from_single_bytes(bytes);
 }
 
 }  // namespace dresslife::sim

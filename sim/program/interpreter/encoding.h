@@ -1,15 +1,11 @@
 // Converts program text to UTF-8. Input encodings: UTF-8 with or without a byte order mark, UTF-16 of either byte
 // order, or one byte per letter (Windows-1252, which contains ISO 8859-1). Other multibyte encodings (GBK) are read
-// as single bytes: their letters change, which has no effect inside comments. Source: The Unicode Standard 15,
-// section 3.9, and RFC 3629.
+// as single bytes: their letters change, which has no effect inside comments.
 #pragma once
 
 #include <string>
 
 namespace dresslife::sim {
-
-/// Whether every byte belongs to a well-formed UTF-8 sequence.
-bool is_utf8(const std::string& bytes);
 
 /// Returns the text in UTF-8 without a byte order mark. Half a surrogate pair becomes U+FFFD.
 std::string decoded_text(std::string bytes);
