@@ -1,6 +1,11 @@
 // The text of a warning: problem, cause and remedy.
 #pragma once
 
+#include <initializer_list>
+#include <limits>
+#include <string_view>
+
+#include "pipeline/base/errors.h"
 #include "pipeline/base/warnings.h"
 
 namespace dresslife::pipeline {
@@ -28,5 +33,42 @@ WarningParts parts_of(std::string words);
 /// remedy: words without values.
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy);
+
+/// Another unit in which a number may have been written.
+struct OtherUnit {
+  double factor;           ///< of the number, to the unit of its key
+  std::string_view cause;  ///< "metres instead of millimetres"
+  std::string_view unit;   ///< "metres"
+};
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+/// Limits of a number in the unit of its key.
+struct Limits {
+  double low = 0, high = no_limit;
+  std::string_view reason = {};  ///< ": solid copper"
+};
+
+/// Cause and remedy of a number that no other unit brings within its limits.
+struct Otherwise {
+  std::string_view cause = "another unit";
+  std::string_view remedy = {};  ///< empty: the limits
+  std::string_view also = {};    ///< after the remedy of another unit: ", or no key"
+};
+
+/// Adds warnings of one kind to a list.
+class WarningsOfKind {
+ public:
+  explicit WarningsOfKind(std::vector<Warning>& warnings, WarningKind kind) : warnings_(&warnings), kind_(kind) {}
+  void operator()(const Where& where, const std::string& what, const std::string& cause,
+                  const std::string& remedy) const;
+  /// Warns of a number outside of its limits, in the unit of its key. of: " of 'lead'", after the key. Cause and remedy are the
+  /// units in which it would be within the limits.
+  void number(const Where& where, std::string_view key, std::string_view of, double value, const Limits& limits,
+              std::initializer_list<OtherUnit> units = {}, const Otherwise& otherwise = {}) const;
+
+ private:
+  std::vector<Warning>* warnings_;
+  WarningKind kind_;
+};
 
 }  // namespace dresslife::pipeline

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -97,6 +98,43 @@ Warning warning_of(WarningKind kind, std::string where, const std::string& what,
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy) {
   return warning_of(kind, std::move(where), what, cause, Remedy{{}, remedy});
+}
+
+void WarningsOfKind::operator()(const Where& where, const std::string& what, const std::string& cause,
+                                const std::string& remedy) const {
+  warnings_->push_back(warning_of(kind_, where.text(), what, cause, remedy));
+}
+
+void WarningsOfKind::number(const Where& where, std::string_view key, std::string_view of, double value,
+                            const Limits& limits, std::initializer_list<OtherUnit> units,
+                            const Otherwise& otherwise) const {
+  constexpr double rounding = 1e-9;  // relative: of conversions between SI and the unit of a key
+  const auto keeps = [&](double x) {
+    return x >= limits.low - rounding * std::abs(limits.low) && x <= limits.high + rounding * std::abs(limits.high);
+  };
+  if (keeps(value)) return;
+  const auto text = [](double x) {  // as it is written, if that is short
+    const std::string whole = fmt::format("{:g}", x);
+    return whole.size() <= 6 ? whole : fmt::format("{:.4g}", x);
+  };
+  const bool both = limits.high < no_limit && limits.low > -no_limit && (limits.low != 0 || value < 0);
+  const std::string range = both                      ? text(limits.low) + " .. " + text(limits.high)
+                            : limits.high == no_limit ? text(limits.low) + " or more"
+                                                      : text(limits.high) + " or less";
+  std::string cause, remedy;
+  for (const OtherUnit& unit : units)
+    if (const double meant = unit.factor * value; keeps(meant)) {
+      if (cause.empty()) cause = unit.cause;
+      remedy +=
+          fmt::format("{} {} if that was {}", remedy.empty() ? fmt::format("{}:", key) : ",", text(meant), unit.unit);
+    }
+  if (!remedy.empty())
+    remedy += otherwise.also;
+  else
+    cause = otherwise.cause,
+    remedy = otherwise.remedy.empty() ? fmt::format("{}: {}", key, range) : std::string(otherwise.remedy);
+  (*this)(where, fmt::format("{}{} is {} (limit{} {}{})", key, of, text(value), both ? "s" : "", range, limits.reason),
+          cause, remedy);
 }
 
 WarningParts parts_of(std::string words) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "pipeline/base/constants.h"
@@ -90,6 +91,13 @@ constexpr double shortest_fold = 0.8;
 constexpr double lowest_fold = 0.05, highest_fold = 0.2, usual_folds[] = {0.06, 0.12};
 constexpr double largest_grip = 1e5;  // [N]: ten times the breaking force of a power cable
 
+constexpr OtherUnit from_metres{1e3, "metres instead of millimetres", "metres"},
+    from_percent{1e-2, "per cent instead of a share", "per cent"},
+    from_share{1e2, "a share instead of per cent", "a share"},
+    from_kilonewtons{1e3, "kilonewtons instead of newtons", "kN"},
+    from_radians_per_metre{1 / degree, "radians or turns per metre", "rad/m"},
+    from_turns_per_metre{360, "turns per metre", "turns/m"};
+
 /// Returns the mass of all wires per metre of the part along their lays, with the density of aluminium [kg/m].
 double least_wire_mass(const std::vector<Component>& components) {
   double mass = 0;
@@ -102,11 +110,9 @@ double least_wire_mass(const std::vector<Component>& components) {
 
 class Judge {
  public:
-  explicit Judge(std::vector<Warning>& warnings) : warnings_(warnings) {}
+  explicit Judge(std::vector<Warning>& warnings) : add(warnings, WarningKind::material) {}
 
-  void add(const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
-    warnings_.push_back(warning_of(WarningKind::material, where.text(), what, cause, remedy));
-  }
+  const WarningsOfKind add;
 
   /// Warns of a wire that is too thin. A data sheet has the diameter instead of the radius.
   void thin_wire(const Component& of) {
@@ -127,6 +133,8 @@ class Judge {
         largest_of(components, 0.0, [](const Component& of) { return 2 * (of.helix_radius + of.radius); });
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
+      const std::string name = fmt::format(" of '{}'", of.name);
+      const double section = pi * of.radius * of.radius;
       if (is_wire(of) && of.radius < thinnest) thin_wire(of);
       if (of.lay_angle > 0 && of.lay_angle < least_lay &&
           2 * pi * of.helix_radius > longest_lay * widest * std::tan(of.lay_angle))
@@ -164,40 +172,25 @@ class Judge {
                         1e3 * of.jacket->thickness, 1e3 * thinnest_jacket * usual, thinnest_jacket),
             "the insulation of a core, or a lost digit",
             fmt::format("jacket {:.2g} mm, a usual one, or no jacket if none is known", 1e3 * usual));
-      if (of.jacket && of.jacket->thickness < thinnest_sleeve)
-        add(of.where,
-            fmt::format("the jacket of '{}' is {:.3g} mm thick (limit {:g} or more)", of.name,
-                        1e3 * of.jacket->thickness, 1e3 * thinnest_sleeve),
-            "metres instead of millimetres",
-            fmt::format("thickness_mm: {:.4g} if that was metres", 1e6 * of.jacket->thickness));
-      if (of.friction.value_or(0) > largest_friction)
-        add(of.where,
-            fmt::format("friction_coefficient of '{}' is {:.3g} (limit {:g})", of.name, *of.friction, largest_friction),
-            "per cent instead of a share",
-            fmt::format("friction_coefficient: {:.3g} if that was per cent", *of.friction / 100));
-      if (of.tension / (pi * of.radius * of.radius) > strongest_part)
-        add(of.where,
-            fmt::format("tension_N of '{}' is {:.4g} (limit {:.3g}: {:g} MPa on its section)", of.name, of.tension,
-                        strongest_part * pi * of.radius * of.radius, strongest_part / 1e6),
-            "another unit", "no tension_N, or the pull with which it was installed");
-      if (const double section = pi * of.radius * of.radius; of.laying.mass && *of.laying.mass > copper * section)
-        add(of.where,
-            fmt::format("mass_kg_per_m of '{}' is {:.4g} (limit {:.3g}: solid copper)", of.name, *of.laying.mass,
-                        copper * section),
-            "grams instead of kilograms",
-            fmt::format("mass_kg_per_m: {:.4g} if that was g/m, or no key", *of.laying.mass / 1000));
-      if (const double least = lightest_part * pi * of.radius * of.radius;
-          of.plain && of.laying.mass && *of.laying.mass < least)
-        add(of.where,
-            fmt::format("mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: foam)", of.name, *of.laying.mass, least),
-            "tonnes instead of kilograms, or kg/mm",
-            fmt::format("mass_kg_per_m: {:.4g} if that was kg/mm, or no key", 1e3 * *of.laying.mass));
+      if (of.jacket)
+        add.number(of.where, "thickness_mm", " of the jacket" + name, 1e3 * of.jacket->thickness,
+                   {1e3 * thinnest_sleeve}, {from_metres});
+      add.number(of.where, "friction_coefficient", name, of.friction.value_or(0), {0, largest_friction},
+                 {from_percent});
+      add.number(of.where, "tension_N", name, of.tension,
+                 {0, strongest_part * section, fmt::format(": {:g} MPa on its section", strongest_part / 1e6)}, {},
+                 {"another unit", "no tension_N, or the pull with which it was installed"});
+      if (of.laying.mass) {
+        const double mass = *of.laying.mass, foam = of.plain ? lightest_part * section : 0;
+        add.number(of.where, "mass_kg_per_m", name, mass, {0, copper * section, ": solid copper"},
+                   {{1e-3, "grams instead of kilograms", "g/m"}}, {"another unit", "", ", or no key"});
+        add.number(of.where, "mass_kg_per_m", name, mass, {foam, no_limit, ": foam"},
+                   {{1e3, "tonnes instead of kilograms, or kg/mm", "kg/mm"}}, {"another unit", "", ", or no key"});
+        add.number(of.where, "mass_kg_per_m", name, mass,
+                   {least_wire_mass(of.components), no_limit, ": its wires, if they were of aluminium"}, {},
+                   {"another unit", "mass_kg_per_m from the data sheet (kg/km over 1000), or no key"});
+      }
       if (of.plain && of.plain->bore) tube(of, 1e3 * *of.plain->bore, 2e3 * of.radius);
-      if (const double least = least_wire_mass(of.components); of.laying.mass && *of.laying.mass < least)
-        add(of.where,
-            fmt::format("mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)", of.name,
-                        *of.laying.mass, least),
-            "another unit", "mass_kg_per_m from the data sheet (kg/km over 1000), or no key");
       ratings(of.ratings, of.name, 2 * of.radius);
       for (std::size_t other = 0; other < k; ++other)
         if (components[other].name == of.name && components[other].layer == of.layer)
@@ -212,29 +205,23 @@ class Judge {
   /// diameter: of the cable or hose with these ratings [m].
   void ratings(const std::vector<Rating>& ratings, const std::string& name, double diameter) {
     for (const Rating& rating : ratings) {
-      if (rating.cycles < fewest_rated)
-        add(rating.where,
-            fmt::format("cycles of a rating of '{}' is {:g} (limit {:g} or more)", name, rating.cycles, fewest_rated),
-            "millions of cycles", fmt::format("cycles: {:g} if that was millions", 1e6 * rating.cycles));
+      add.number(rating.where, "cycles", fmt::format(" of a rating of '{}'", name), rating.cycles, {fewest_rated},
+                 {{1e6, "millions of cycles", "millions"}});
       rig(rating.rig, name, diameter);
     }
   }
 
  private:
   void rig(const Rig& rig, const std::string& name, double diameter) {
-    if (const double twist = rig.twist.value_or(least_rig_twist * degree) / degree;
-        twist < least_rig_twist * (1 - 1e-9) || twist > most_rig_twist * (1 + 1e-9))
-      add(rig.where,
-          fmt::format("twist_deg_per_m in a rating of '{}' is {:.4g} (limits {:g} .. {:g})", name, twist,
-                      least_rig_twist, most_rig_twist),
-          twist < least_rig_twist ? "radians or turns per metre" : "another unit, or a length in millimetres",
-          twist < least_rig_twist
-              ? fmt::format("twist_deg_per_m: {:.4g} if that was rad/m, {:.4g} if turns", twist / degree, 360 * twist)
-              : "twist_deg_per_m: the maker's angle to either side, over the length in metres");
-    if (const double travel = rig.travel.value_or(0); travel > longest_rig)
-      add(rig.where, fmt::format("travel_m in a rating of '{}' is {:.4g} (limit {:g})", name, travel, longest_rig),
-          "millimetres instead of metres",
-          fmt::format("travel_m: {:.4g} if that was mm; leave it if the maker states it", travel / 1000));
+    const std::string of = fmt::format(" in a rating of '{}'", name);
+    if (rig.twist)
+      add.number(rig.where, "twist_deg_per_m", of, *rig.twist / degree, {least_rig_twist, most_rig_twist},
+                 {from_radians_per_metre, from_turns_per_metre},
+                 {"another unit, or a length in millimetres",
+                  "twist_deg_per_m: the maker's angle to either side, over the length in metres"});
+    add.number(rig.where, "travel_m", of, rig.travel.value_or(0), {0, longest_rig},
+               {{1e-3, "millimetres instead of metres", "mm"}},
+               {"another unit", "", "; leave it if the maker states it"});
     const bool bends = rig.radius || rig.radius_diameters || rig.pulley_diameter;
     if (!bends || rig.kind == RigKind::swivel || !(diameter > 0)) return;  // clips may have sharp edges
     const double times = axis_radius(rig, diameter) / diameter;
@@ -282,8 +269,6 @@ class Judge {
             of.name, bore, outer, outer / 2, narrowest_bore * outer, widest_bore * outer, narrowest_bore, widest_bore),
         "a radius instead of a diameter or a diameter instead of a radius, or another unit", joined(remedies, "; or "));
   }
-
-  std::vector<Warning>& warnings_;
 };
 
 /// Returns whether a wire is of this material.
@@ -295,24 +280,16 @@ bool has_wire_of(const std::vector<Component>& components, const std::string& ma
 
 /// Judges the constants of wire metals.
 void plausible_metal(const Material& of, Judge& judge) {
-  const auto beyond = [&](const char* key, double value, double low, double high, double unit, const std::string& cause,
-                          const std::string& remedy) {
-    if (value < low || value > high)
-      judge.add(of.where,
-                fmt::format("{} of the wires' material '{}' is {:.4g} (limits {:g} .. {:g})", key, of.name,
-                            value / unit, low / unit, high / unit),
-                cause, remedy);
-  };
-  beyond("youngs_modulus_GPa", of.youngs_modulus, softest_wire, stiffest_wire, 1e9, "another unit, or no metal",
-         of.youngs_modulus < softest_wire
-             ? fmt::format("youngs_modulus_GPa: {:.4g} if that was TPa", of.youngs_modulus / 1e6)
-             : fmt::format("youngs_modulus_GPa: {:.4g} if that was MPa", of.youngs_modulus / 1e12));
+  const std::string name = fmt::format(" of the wires' material '{}'", of.name);
+  judge.add.number(of.where, "youngs_modulus_GPa", name, of.youngs_modulus / 1e9,
+                   {softest_wire / 1e9, stiffest_wire / 1e9},
+                   {{1e3, "TPa instead of GPa, or no metal", "TPa"}, {1e-3, "MPa instead of GPa, or no metal", "MPa"}},
+                   {"another unit, or no metal", ""});
   for (const auto& [key, value] : {std::pair{"tensile_strength_MPa", of.tensile_strength},
                                    {"fatigue_strength_MPa", std::optional(of.fatigue_strength)}})
     if (value && *value > 0)
-      beyond(key, *value, weakest_wire, strongest_wire, 1e6,
-             *value < weakest_wire ? "GPa instead of MPa" : "kPa instead of MPa",
-             fmt::format("{}: {:.4g} if so", key, *value < weakest_wire ? *value / 1e3 : *value / 1e9));
+      judge.add.number(of.where, key, name, *value / 1e6, {weakest_wire / 1e6, strongest_wire / 1e6},
+                       {{1e3, "GPa instead of MPa", "GPa"}, {1e-3, "kPa instead of MPa", "kPa"}});
   if (of.fatigue_strength <= 0) return;
   if (of.fatigue_strength_exponent < of.fatigue_ductility_exponent)
     judge.add(
@@ -324,38 +301,27 @@ void plausible_metal(const Material& of, Judge& judge) {
         fmt::format("fatigue_strength_exponent: {:g} and fatigue_ductility_exponent: {:g}",
                     of.fatigue_ductility_exponent, of.fatigue_strength_exponent));
   else {
-    beyond("fatigue_strength_exponent", of.fatigue_strength_exponent, steepest_strength, 0, 1,
-           "a slope of another curve", "-0.05 to -0.15 for metals");
-    beyond("fatigue_ductility_exponent", of.fatigue_ductility_exponent, steepest_ductility, flattest_ductility, 1,
-           "a slope of another curve", "-0.5 to -0.8 for metals");
+    judge.add.number(of.where, "fatigue_strength_exponent", name, of.fatigue_strength_exponent, {steepest_strength, 0},
+                     {}, {"a slope of another curve", "-0.05 to -0.15 for metals"});
+    judge.add.number(of.where, "fatigue_ductility_exponent", name, of.fatigue_ductility_exponent,
+                     {steepest_ductility, flattest_ductility}, {},
+                     {"a slope of another curve", "-0.5 to -0.8 for metals"});
   }
-  beyond("fatigue_ductility", of.fatigue_ductility, 0, largest_ductility, 1, "per cent instead of a share",
-         fmt::format("fatigue_ductility: {:g} if that was per cent", of.fatigue_ductility / 100));
+  judge.add.number(of.where, "fatigue_ductility", name, of.fatigue_ductility, {0, largest_ductility}, {from_percent});
 }
 
 /// Judges limits from makers, and the sleeve and other parts around the hose.
 void plausible_limits(const Dresspack& dresspack, Judge& judge) {
-  if (const double twist = dresspack.most_twist.value_or(degree * least_most_twist) / degree;
-      twist < least_most_twist * (1 - 1e-9) || twist > largest_most_twist)
-    judge.add(dresspack.where,
-              fmt::format("most_twist_deg_per_m is {:.4g} (limits {:g} .. {:g})", twist, least_most_twist,
-                          largest_most_twist),
-              twist < least_most_twist ? "radians or turns per metre" : "another unit",
-              twist < least_most_twist ? fmt::format("most_twist_deg_per_m: {:.3g} if that was rad/m, {:.4g} if turns",
-                                                     twist / degree, 360 * twist)
-                                       : "most_twist_deg_per_m: 180, or the maker's limit");
-  if (const double tension = dresspack.most_tension.value_or(least_most_tension);
-      tension < least_most_tension || tension > largest_most_tension)
-    judge.add(dresspack.where,
-              fmt::format("most_tension_N is {:.4g} (limits {:g} .. {:g})", tension, least_most_tension,
-                          largest_most_tension),
-              tension < least_most_tension ? "kilonewtons instead of newtons" : "another unit",
-              tension < least_most_tension ? fmt::format("most_tension_N: {:g} if that was kN", 1e3 * tension)
-                                           : fmt::format("most_tension_N: {:g} if that was mN", tension / 1e3));
-  if (dresspack.friction > largest_friction)
-    judge.add(dresspack.where,
-              fmt::format("friction_coefficient is {:.3g} (limit {:g})", dresspack.friction, largest_friction),
-              "a guess that is too high", "friction_coefficient: 0.5");
+  if (dresspack.most_twist)
+    judge.add.number(dresspack.where, "most_twist_deg_per_m", "", *dresspack.most_twist / degree,
+                     {least_most_twist, largest_most_twist}, {from_radians_per_metre, from_turns_per_metre},
+                     {"another unit", "most_twist_deg_per_m: 180, or the maker's limit"});
+  if (dresspack.most_tension)
+    judge.add.number(dresspack.where, "most_tension_N", "", *dresspack.most_tension,
+                     {least_most_tension, largest_most_tension},
+                     {from_kilonewtons, {1e-3, "millinewtons instead of newtons", "mN"}});
+  judge.add.number(dresspack.where, "friction_coefficient", "", dresspack.friction, {0, largest_friction}, {},
+                   {"a guess that is too high", "friction_coefficient: 0.5"});
   if (dresspack.construction_curvature > largest_construction_curvature)
     judge.add(dresspack.where,
               fmt::format("construction_curvature_1_per_m is {:g} (limit {:g})", dresspack.construction_curvature,
@@ -363,17 +329,10 @@ void plausible_limits(const Dresspack& dresspack, Judge& judge) {
               "a bend radius in mm",
               fmt::format("construction_curvature_1_per_m: {:.3g} if that was a radius in mm",
                           1e3 / dresspack.construction_curvature));
-  if (dresspack.sleeve && (dresspack.sleeve->thickness < thinnest_sleeve ||
-                           dresspack.sleeve->thickness > thickest_sleeve * dresspack.diameter))
-    judge.add(
-        dresspack.where,
-        fmt::format("thickness_mm of the sleeve is {:.4g} (limits {:g} .. {:.3g})", 1e3 * dresspack.sleeve->thickness,
-                    1e3 * thinnest_sleeve, 1e3 * thickest_sleeve * dresspack.diameter),
-        dresspack.sleeve->thickness < thinnest_sleeve ? "metres instead of millimetres"
-                                                      : "the diameter instead of the thickness",
-        dresspack.sleeve->thickness < thinnest_sleeve
-            ? fmt::format("thickness_mm: {:.4g} if that was metres", 1e6 * dresspack.sleeve->thickness)
-            : "thickness_mm of one wall");
+  if (dresspack.sleeve)
+    judge.add.number(dresspack.where, "thickness_mm", " of the sleeve", 1e3 * dresspack.sleeve->thickness,
+                     {1e3 * thinnest_sleeve, 1e3 * thickest_sleeve * dresspack.diameter}, {from_metres},
+                     {"the diameter instead of the thickness, or another unit", "thickness_mm of one wall"});
 }
 
 /// Judges diameters, bend radius and torsion against each other, and against the parts.
@@ -387,12 +346,8 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
               meant.cause.empty() ? "another unit" : meant.cause,
               meant.remedy.empty() ? "diameter_mm as a caliper finds it" : meant.remedy);
   }
-  if (dresspack.hose_corrugation && dresspack.hose_corrugation->pitch < shortest_pitch)
-    judge.add(dresspack.hose_corrugation->where,
-              fmt::format("pitch_mm is {:.3g} (limit {:g} or more)", 1e3 * dresspack.hose_corrugation->pitch,
-                          1e3 * shortest_pitch),
-              "metres instead of millimetres",
-              fmt::format("pitch_mm: {:.3g} if that was metres", 1e6 * dresspack.hose_corrugation->pitch));
+  if (const auto& profile = dresspack.hose_corrugation)
+    judge.add.number(profile->where, "pitch_mm", "", 1e3 * profile->pitch, {1e3 * shortest_pitch}, {from_metres});
   if (const auto& profile = dresspack.hose_corrugation; profile && profile->pitch >= shortest_pitch) {
     if (profile->pitch < shortest_fold * profile->height)
       judge.add(profile->where,
@@ -468,26 +423,16 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                           least_torsion, most_torsion),
               "one of the two in another unit", "torsional_stiffness_Nm2: from_construction, or both as measured");
   for (const Component& of : dresspack.components) {
-    if (of.laying.slack > 0 && of.laying.slack < 100 * least_slack)
-      judge.add(of.where,
-                fmt::format("slack_percent of '{}' is {:.3g} (limit 0, or {:g} or more)", of.name, of.laying.slack,
-                            100 * least_slack),
-                "a share instead of per cent",
-                fmt::format("slack_percent: {:.3g} if that was a share", 100 * of.laying.slack));
-    if (of.laying.slack > 100 * largest_slack)
-      judge.add(
-          of.where,
-          fmt::format("slack_percent of '{}' is {:.3g} (limit {:g})", of.name, of.laying.slack, 100 * largest_slack),
-          "millimetres in a metre instead of per cent",
-          fmt::format("slack_percent: {:.3g} if that was mm in a metre", of.laying.slack / 10));
+    const std::string name = fmt::format(" of '{}'", of.name);
+    if (of.laying.slack > 0)
+      judge.add.number(of.where, "slack_percent", name, of.laying.slack,
+                       {100 * least_slack, 100 * largest_slack, ", or 0"},
+                       {from_share, {0.1, "millimetres in a metre instead of per cent", "mm in a metre"}});
     for (const auto& [key, grip] :
          {std::pair{"base_grip_N", of.laying.base_grip}, {"tool_grip_N", of.laying.tool_grip}})
-      if (grip && *grip < least_grip)
-        judge.add(of.where, fmt::format("{} of '{}' is {:.3g} (limit {:g} or more)", key, of.name, *grip, least_grip),
-                  "kilonewtons instead of newtons", fmt::format("{}: {:g} if that was kN", key, 1e3 * *grip));
-      else if (grip && *grip > largest_grip)
-        judge.add(of.where, fmt::format("{} of '{}' is {:.3g} (limit {:g})", key, of.name, *grip, largest_grip),
-                  "another unit", fmt::format("no {}: then the clamp holds the cable", key));
+      if (grip)
+        judge.add.number(of.where, key, name, *grip, {least_grip, largest_grip}, {from_kilonewtons},
+                         {"another unit", fmt::format("no {}: then the clamp holds the cable", key)});
   }
 }
 
@@ -532,17 +477,14 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
         ratio < least_ratio ? "seconds instead of milliseconds, or no damping at all"
                             : "microseconds instead of milliseconds",
         "20 for a hose with cables, or the decay of its swing as measured");
-  const auto beyond_solid = [&](const char* key, double value, double solid, const char* unit) {
-    if (value > solid)
-      judge.add(dresspack.where,
-                fmt::format("{} is {:.3g} (limit {:.3g} {}: solid copper of diameter_mm)", key, value, solid, unit),
-                "another unit, or diameter_mm in another unit",
-                fmt::format("{} as measured, or from_construction", key));
-  };
   const double second_moment = section * dresspack.diameter * dresspack.diameter / 16;
-  beyond_solid("bending_stiffness_Nm2", dresspack.bending_stiffness, stiffest * second_moment, "N m2");
-  beyond_solid("torsional_stiffness_Nm2", dresspack.torsional_stiffness, shear * 2 * second_moment, "N m2");
-  beyond_solid("axial_stiffness_N", dresspack.axial_stiffness, stiffest * section, "N");
+  for (const auto& [key, value, solid] :
+       {std::tuple{"bending_stiffness_Nm2", dresspack.bending_stiffness, stiffest * second_moment},
+        {"torsional_stiffness_Nm2", dresspack.torsional_stiffness, shear * 2 * second_moment},
+        {"axial_stiffness_N", dresspack.axial_stiffness, stiffest * section}})
+    judge.add.number(
+        dresspack.where, key, "", value, {0, solid, ": solid copper of diameter_mm"}, {},
+        {"another unit, or diameter_mm in another unit", "the stiffness as measured, or from_construction"});
   constexpr double gravity = 9.81;
   const double weight = std::min(mass, most) * gravity;  // an implausible mass does not make the stiffness implausible
   if (const bool computed = dresspack.axial_from_construction;
@@ -562,30 +504,22 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
             : "hose_material and inner_diameter_mm of the hose, or axial_stiffness_N as measured");
   plausible_size(dresspack, judge);
   plausible_limits(dresspack, judge);
-  if (const Material* const wall = find_material(dresspack, dresspack.hose_material);
-      wall && wall->youngs_modulus > stiffest_polymer)
-    judge.add(dresspack.where,
-              fmt::format("hose_material '{}' has youngs_modulus_GPa {:.3g} (limit {:g} or less: polymers)", wall->name,
-                          1e-9 * wall->youngs_modulus, 1e-9 * stiffest_polymer),
-              "the material of a wire", "hose_material: hose_polyamide, or the hose's own material");
+  if (const Material* const wall = find_material(dresspack, dresspack.hose_material); wall)
+    judge.add.number(dresspack.where, "youngs_modulus_GPa", fmt::format(" of hose_material '{}'", wall->name),
+                     1e-9 * wall->youngs_modulus, {0, 1e-9 * stiffest_polymer, ": polymers"}, {},
+                     {"the material of a wire", "hose_material: hose_polyamide, or the hose's own material"});
   for (const Material& of : dresspack.materials)
     for (const WearRate& wear : of.wear)
-      if (wear.rate < least_wear || wear.rate > most_wear)
-        judge.add(of.where,
-                  fmt::format("rate_mm3_per_Nm of '{}' is {:.3g} (limits {:g} .. {:g})", of.name, 1e9 * wear.rate,
-                              1e9 * least_wear, 1e9 * most_wear),
-                  wear.rate < least_wear ? "m3/(N m) instead of mm3/(N m)"
-                                         : "more than abrasive cloth takes off: another unit",
-                  wear.rate < least_wear ? fmt::format("rate_mm3_per_Nm: {:.3g} if that was m3/(N m)", 1e18 * wear.rate)
-                                         : "rate_mm3_per_Nm as measured; polymers that slide: 1e-7 .. 1e-3");
+      judge.add.number(of.where, "rate_mm3_per_Nm", fmt::format(" of '{}'", of.name), 1e9 * wear.rate,
+                       {1e9 * least_wear, 1e9 * most_wear}, {{1e9, "m3/(N m) instead of mm3/(N m)", "m3/(N m)"}},
+                       {"another unit: abrasive cloth takes off less than the upper limit",
+                        "rate_mm3_per_Nm as measured; polymers that slide: 1e-7 .. 1e-3"});
   for (const Material& of : dresspack.materials)
     if (has_wire_of(dresspack.components, of.name)) plausible_metal(of, judge);
   for (const Component& of : dresspack.components)
-    if (of.laying.play.value_or(0) > dresspack.diameter / 2)
-      judge.add(of.where,
-                fmt::format("play_mm of '{}' is {:.4g} (limit {:.3g}: half of diameter_mm)", of.name,
-                            1e3 * *of.laying.play, 1e3 * dresspack.diameter / 2),
-                "another unit", "no play_mm: it follows from the bore");
+    judge.add.number(of.where, "play_mm", fmt::format(" of '{}'", of.name), 1e3 * of.laying.play.value_or(0),
+                     {0, 500 * dresspack.diameter, ": half of diameter_mm"}, {},
+                     {"another unit", "no play_mm: it follows from the bore"});
   judge.parts(dresspack.components);
   judge.parts(dresspack.core_components);
   judge.ratings(dresspack.ratings, dresspack.name, dresspack.diameter);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <optional>
 #include <regex>
@@ -102,14 +101,11 @@ constexpr double widest_ring = 10;                            // in diameters of
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
                  heaviest_slider = 50;  // [m], [N], [N/m], [kg]
 
-using AddDoubt =
-    std::function<void(const Where&, const std::string& what, const std::string& cause, const std::string& remedy)>;
-
-AddDoubt adding_to(std::vector<Warning>& warnings) {
-  return [&](const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
-    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
-  };
-}
+constexpr OtherUnit from_millimetres{1e-3, "millimetres instead of metres", "millimetres"},
+    from_metres{1e3, "metres instead of millimetres", "metres"},
+    from_milliseconds{1e-3, "milliseconds instead of seconds", "milliseconds"},
+    from_share{1e2, "a share instead of per cent", "a share"},
+    from_percent{1e-2, "per cent instead of a share", "per cent"};
 
 /// Returns a remedy if its value keeps the limit that the present one exceeds, else another remedy.
 std::string if_kept(bool keeps, const std::string& remedy, const std::string& otherwise) {
@@ -129,7 +125,8 @@ struct Doubted {
     first = &step;
     line = of.line > 0 ? of : step.where;
   }
-  void warn(const AddDoubt& add, const std::string& what, const std::string& cause, const std::string& remedy) const {
+  void warn(const WarningsOfKind& add, const std::string& what, const std::string& cause,
+            const std::string& remedy) const {
     add(line, what + (more ? fmt::format(" (and {} more)", more) : ""), cause, remedy);
   }
 };
@@ -208,7 +205,7 @@ std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
 
 /// Warns of one axis of one target in radians: at all other targets the axis is far from 0 on the same side, and the number in
 /// radians lies near to them.
-void doubt_single_axes(const std::vector<const MotionStep*>& joints, const AddDoubt& add) {
+void doubt_single_axes(const std::vector<const MotionStep*>& joints, const WarningsOfKind& add) {
   constexpr std::size_t fewest = 3;           // other targets: two are no pattern
   constexpr double neighbours = 30 * degree;  // ESTIMATE: from the angles of the axis at other targets
   for (std::size_t k = 0; !joints.empty() && k < joints.front()->joints.size(); ++k) {
@@ -241,7 +238,7 @@ void doubt_single_axes(const std::vector<const MotionStep*>& joints, const AddDo
 }
 
 /// Warns of few targets in radians among others in degrees, and of few positions in metres among others in millimetres.
-void doubt_single_targets(const std::vector<MotionStep>& steps, const AddDoubt& add) {
+void doubt_single_targets(const std::vector<MotionStep>& steps, const WarningsOfKind& add) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
   Doubted radians, metres;
@@ -299,7 +296,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, const AddDoubt& 
 
 /// Warns of few positions beside the preceding one in the same orientation, for example by Offs in RAPID with an offset in
 /// metres.
-void doubt_small_steps(const std::vector<MotionStep>& steps, const AddDoubt& add) {
+void doubt_small_steps(const std::vector<MotionStep>& steps, const WarningsOfKind& add) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
   Doubted small;
@@ -335,7 +332,8 @@ Where assigned_at(const std::vector<MotionStep>& steps, const std::string& name)
 }
 
 /// Warns of tools and work objects that are close to their reference frame, but not equal to it.
-void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion, const AddDoubt& add) {
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion,
+                  const WarningsOfKind& add) {
   for (const MotionFrame& frame : frames) {
     const Where assigned = assigned_at(motion.steps, frame.name), &where = assigned.line > 0 ? assigned : motion.where;
     const Vector3d& at = frame.position;
@@ -362,7 +360,7 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   Seen seen;
   add_steps(motion.steps, seen);
   std::vector<Warning> warnings;
-  const AddDoubt add = adding_to(warnings);
+  const WarningsOfKind add(warnings, WarningKind::motion);
   // A controller's program has no keys.
   const auto key = [](const char* in_job, const char* in_program, const MotionStep& step) {
     const std::string& file = step.where.file;
@@ -497,7 +495,7 @@ bool is_urdf(const Where& where) { return where.file.ends_with(".urdf") || where
 /// Returns whether the accelerations are a list in the job, beside the name of a URDF.
 bool has_list(const Joint& joint) { return is_urdf(joint.where) && !is_urdf(joint.acceleration_where); }
 
-void doubt_limits(const Joint& joint, const AddDoubt& add) {
+void doubt_limits(const Joint& joint, const WarningsOfKind& add) {
   const double lower = joint.lower / degree, upper = joint.upper / degree,
                largest = std::max(std::abs(lower), std::abs(upper));
   if (largest <= most_turns || largest * degree > twice_around || std::abs(largest - endless_axis) < 1e-6) return;
@@ -514,7 +512,7 @@ void doubt_limits(const Joint& joint, const AddDoubt& add) {
 }
 
 /// Warns if all axes have ranges that are less than a turn in radians.
-void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+void doubt_ranges(const std::vector<const Joint*>& driven, const WarningsOfKind& add) {
   const double largest = largest_of(driven, 0.0, [](const Joint* joint) {  // [deg]
     return std::max(std::abs(joint->lower) / degree, std::abs(joint->upper) / degree);
   });
@@ -533,7 +531,7 @@ void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) 
 
 /// Warns of accelerations in the wrong order. The arm has more inertia than the wrist: in config/robots, axes 1 to 3 accelerate
 /// at most 0.4 times as fast as axes 4 to 6.
-void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+void doubt_order(const std::vector<const Joint*>& driven, const WarningsOfKind& add) {
   constexpr std::size_t arm = 3, axes = 6;
   if (driven.size() != axes) return;
   std::vector<double> numbers = mapped(driven, [](const Joint* joint) { return joint->acceleration / degree; });
@@ -554,20 +552,17 @@ void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
           has_list(first) ? fmt::format("[{}]", fmt::join(words, ", ")) : fmt::format("{}", fmt::join(words, ", "))));
 }
 
-void doubt_speed(const Joint& joint, const AddDoubt& add) {
+void doubt_speed(const Joint& joint, const WarningsOfKind& add) {
   const double speed = joint.speed / degree;
   const bool slow = joint.speed < slowest_axis;
   if (!(joint.speed > 0) || (!slow && joint.speed <= fastest_axis)) return;
   const std::string limits = fmt::format("(limits {:g} .. {:g}", slowest_axis / degree, fastest_axis / degree);
   if (!is_urdf(joint.where))
-    return add(joint.where, fmt::format("speed_deg_per_s of {} is {:.4g} {})", joint.name, speed, limits),
-               slow ? "radians per second instead of degrees" : "degrees per minute",
-               slow ? if_kept(joint.speed / degree >= slowest_axis,
-                              fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree),
-                              "speed_deg_per_s of the data sheet")
-                    : if_kept(joint.speed / 60 <= fastest_axis,
-                              fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60),
-                              "speed_deg_per_s of the data sheet"));
+    return add.number(joint.where, "speed_deg_per_s", " of " + joint.name, speed,
+                      {slowest_axis / degree, fastest_axis / degree},
+                      {slow ? OtherUnit{1 / degree, "radians per second instead of degrees", "rad/s"}
+                            : OtherUnit{1 / 60.0, "degrees per minute", "deg/min"}},
+                      {"another unit", "speed_deg_per_s of the data sheet"});
   add(joint.where,
       fmt::format("velocity of {} is {:.4g} rad/s, {:.4g} deg/s {} deg/s)", joint.name, joint.speed, speed, limits),
       slow ? "another unit, or a conversion that was made twice"
@@ -577,7 +572,7 @@ void doubt_speed(const Joint& joint, const AddDoubt& add) {
 }
 
 /// Returns whether there is a warning that applies to all axes.
-bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, const AddDoubt& add) {
+bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, const WarningsOfKind& add) {
   const double speed = joint.speed / degree, ramp = joint.speed / joint.acceleration;
   if (ramp >= shortest_ramp && ramp <= longest_ramp) return false;
   const bool slow = ramp > longest_ramp;
@@ -600,7 +595,7 @@ bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, con
 }
 
 /// Warns of accelerations with an extra digit: in config/robots, arms need 0.15 s or more to their full speed, wrists 0.066 s.
-void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+void doubt_quick(const std::vector<const Joint*>& driven, const WarningsOfKind& add) {
   double longest = 0;
   std::vector<std::string> numbers;
   for (const Joint* joint : driven) {
@@ -623,7 +618,7 @@ void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
 /// Warns of an acceleration with which one axis takes much more or less time to its full speed than the axes beside it. Makers
 /// choose drives and gears in proportion: on the measured IRB 6640 these times differ by a factor of 2.1 in the arm and of 1.1 in
 /// the wrist.
-void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+void doubt_digits(const std::vector<const Joint*>& driven, const WarningsOfKind& add) {
   constexpr double most_apart = 3;  // between the measured 2.1 and the factor of 10 of a lost digit
   constexpr std::size_t arm = 3, axes = 6;
   if (driven.size() != axes) return;
@@ -655,7 +650,7 @@ void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) 
   }
 }
 
-void doubt_robot(const Robot& robot, const AddDoubt& add) {
+void doubt_robot(const Robot& robot, const WarningsOfKind& add) {
   if (const double far = robot.base_position.norm(); far > farthest)
     add({}, fmt::format("robot.base_position_m lies {:.4g} m from the origin (limit {:g})", far, farthest),
         "millimetres instead of metres",
@@ -692,7 +687,7 @@ std::vector<std::pair<std::string, Eigen::Vector3d>> points_in(const Robot& robo
 
 /// Warns of a box around the robot. Contact of robot and cell is not evaluated, so such a box has no effect until the dresspack
 /// is in it too.
-void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
+void doubt_boxes(const Cell& cell, const Robot& robot, const WarningsOfKind& add) {
   if (!robot.external_axes.empty()) return;  // external axes carry the robot to another place
   for (std::size_t k = 0; k < cell.boxes.size(); ++k) {
     const Box& box = cell.boxes[k];
@@ -709,7 +704,7 @@ void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
   }
 }
 
-void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const AddDoubt& add) {
+void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const WarningsOfKind& add) {
   const std::size_t shapes = cell.boxes.size() + cell.capsules.size() + cell.meshes.size();
   if (shapes > 0 && !simulation.contact)
     add({},
@@ -726,16 +721,12 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Ad
       add({}, fmt::format("cell.boxes[{}] lies {:.4g} m from the origin (limit {:g})", k + 1, far, farthest),
           "another unit", "position_m in metres, or no box: the dresspack does not reach it");
   for (std::size_t k = 0; k < cell.capsules.size(); ++k)
-    if (cell.capsules[k].radius < 1e-3)
-      add({},
-          fmt::format("radius_mm of cell.capsules[{}] is {:.4g} (limit 1 or more)", k + 1,
-                      1e3 * cell.capsules[k].radius),
-          "metres instead of millimetres",
-          fmt::format("radius_mm: {:g} if that was metres", 1e6 * cell.capsules[k].radius));
+    add.number({}, "radius_mm", fmt::format(" of cell.capsules[{}]", k + 1), 1e3 * cell.capsules[k].radius, {1},
+               {from_metres});
 }
 
 /// Warns of radians in the rounded form of controllers: no axis beyond a turn, and fractions of a degree.
-void doubt_mounting(const Routing& routing, const AddDoubt& add) {
+void doubt_mounting(const Routing& routing, const WarningsOfKind& add) {
   std::vector<std::string> written, meant;
   double largest = 0;
   int parts = 0;
@@ -768,7 +759,7 @@ std::string links_beside(const Robot& robot, const std::string& name, const Vect
 
 /// Warns of a clamp on the last link that lies far behind the flange, while the same numbers in the frame of the flange are before
 /// it. A bracket that reaches back half of the way to the centre of the wrist is in the way of axis 5.
-void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot, const AddDoubt& add) {
+void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
   constexpr double least = 0.05;  // [m]: brackets of the tool reach back so far
   if (robot.links.empty() || clamp.link != robot.links.back().name || robot.joints.empty()) return;
   const Eigen::Quaterniond flange = from_roll_pitch_yaw(robot.flange_orientation);
@@ -788,7 +779,7 @@ void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot,
 }
 
 /// Warns of a clamp at the origin of its link's frame, on the axis of a joint. At a flange it may be a hose through the tool.
-bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const AddDoubt& add) {
+bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
   const bool at_flange =
       !robot.links.empty() && clamp.link == robot.links.back().name && robot.flange_position.isZero();
   if (!clamp.position.isZero() || at_flange) return false;
@@ -804,7 +795,7 @@ bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const
 
 /// Warns of a clamp that is farther from its link than a bracket or a tool is long. near_limit: usual_distance().
 void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double near_limit, const Robot& robot,
-                 const AddDoubt& add) {
+                 const WarningsOfKind& add) {
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
   const auto away = distance_to(robot, clamp.link, clamp.position);
   if (!away || doubt_origin(key, clamp, robot, add)) return;
@@ -853,7 +844,7 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
 }
 
 /// Warns of angles about the axes, in the form of controllers, instead of a direction.
-void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
+void doubt_direction(const char* key, const Clamp& clamp, const WarningsOfKind& add) {
   constexpr double round_angle = 5, most = 360;
   const Vector3d& to = clamp.direction;
   for (const double number : to)
@@ -870,7 +861,7 @@ void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
 
 auto link_of(const Robot& robot, const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); }
 
-void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const AddDoubt& add) {
+void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const WarningsOfKind& add) {
   if (!clamps_exchanged(routing, robot)) return;
   const auto base = link_of(robot, *routing.base_clamp), tool = link_of(robot, *routing.tool_clamp);
   const auto away = [&](const Link& link, const Clamp& clamp) {
@@ -890,17 +881,12 @@ void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const Add
 }
 
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
-                   const AddDoubt& add) {
+                   const WarningsOfKind& add) {
   doubt_mounting(routing, add);
   doubt_order_of_clamps(routing, robot, add);
-  if (const double length = routing.free_length; length > longest_hose)
-    add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
-        length < shortest_in_mm ? "centimetres instead of metres" : "millimetres instead of metres",
-        length < shortest_in_mm
-            ? fmt::format("routing.free_length_m: {:g} if that was centimetres", length / 100)
-            : if_kept(length / 1e3 <= longest_hose,
-                      fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3),
-                      fmt::format("routing.free_length_m in metres: {:g} or less", longest_hose)));
+  const bool centimetres = routing.free_length < shortest_in_mm;
+  add.number(routing.where, "routing.free_length_m", "", routing.free_length, {0, longest_hose},
+             {centimetres ? OtherUnit{1e-2, "centimetres instead of metres", "centimetres"} : from_millimetres});
   for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
     if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
@@ -936,54 +922,35 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
         twist < least_pre_twist
             ? fmt::format("routing.pre_twist_deg: {:.4g} if that was radians", routing.pre_twist / degree / degree)
             : "routing.pre_twist_deg: -180 .. 180");
-  if (const double bracket = routing.longest_bracket.value_or(shortest_bracket);
-      (bracket > 0 && bracket < shortest_bracket) || bracket > longest_built)
-    add(routing.where,
-        fmt::format("routing.longest_bracket_mm is {:.4g} (limits {:g} .. {:g}, or 0)", 1e3 * bracket,
-                    1e3 * shortest_bracket, 1e3 * longest_built),
-        bracket < shortest_bracket ? "metres instead of millimetres" : "another unit",
-        if_kept(bracket < shortest_bracket && 1e3 * bracket >= shortest_bracket,
-                fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket),
-                "routing.longest_bracket_mm: 150"));
+  if (const double bracket = routing.longest_bracket.value_or(0); bracket > 0)
+    add.number(routing.where, "routing.longest_bracket_mm", "", 1e3 * bracket,
+               {1e3 * shortest_bracket, 1e3 * longest_built, ", or 0"}, {from_metres},
+               {"another unit", "routing.longest_bracket_mm: 150"});
   for (const GuideRing& ring : routing.rings)
-    if (2 * ring.radius > widest_ring * dresspack.diameter)
-      add(ring.where,
-          fmt::format("radius_mm of a ring is {:.4g} (limit {:.4g}: {:g} diameters of the dresspack wide)",
-                      1e3 * ring.radius, 5e2 * widest_ring * dresspack.diameter, widest_ring),
-          "another unit",
-          fmt::format("radius_mm: {:.3g}, a little more than the dresspack's", 6e2 * dresspack.diameter));
+    add.number(
+        ring.where, "radius_mm", " of a ring", 1e3 * ring.radius,
+        {0, 5e2 * widest_ring * dresspack.diameter, fmt::format(": {:g} diameters of the dresspack wide", widest_ring)},
+        {},
+        {"another unit",
+         fmt::format("radius_mm: {:.3g}, a little more than the dresspack's", 6e2 * dresspack.diameter)});
   if (!routing.retraction) return;
   const Retraction& unit = *routing.retraction;
-  if (unit.stroke > longest_stroke)
-    add(unit.where, fmt::format("stroke_m of the retraction unit is {:.4g} (limit {:g})", unit.stroke, longest_stroke),
-        "millimetres instead of metres",
-        if_kept(unit.stroke / 1e3 <= longest_stroke,
-                fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3),
-                fmt::format("stroke_m in metres: {:g} or less", longest_stroke)));
-  if (unit.force > largest_pull)
-    add(unit.where, fmt::format("force_N of the retraction unit is {:.4g} (limit {:g})", unit.force, largest_pull),
-        "another unit",
-        if_kept(unit.force / 1e3 <= largest_pull, fmt::format("force_N: {:g} if that was mN", unit.force / 1e3),
-                "force_N: 20 to 100 N, as its maker states"));
+  constexpr std::string_view of = " of the retraction unit";
+  add.number(unit.where, "stroke_m", of, unit.stroke, {0, longest_stroke}, {from_millimetres});
+  add.number(unit.where, "force_N", of, unit.force, {0, largest_pull},
+             {{1e-3, "millinewtons instead of newtons", "mN"}},
+             {"another unit", "force_N: 20 to 100 N, as its maker states"});
   if (unit.force == 0 && unit.spring == 0)
     add(unit.where, "force_N of the retraction unit is 0, and it has no spring: it pulls nothing back",
         "a force that is not known", "force_N: 20 to 100 N, as its maker states");
-  if (unit.spring > stiffest_spring)
-    add(unit.where,
-        fmt::format("spring_N_per_m of the retraction unit is {:.4g} (limit {:g})", unit.spring, stiffest_spring),
-        "another unit",
-        if_kept(unit.spring / 1e3 <= stiffest_spring,
-                fmt::format("spring_N_per_m: {:g} if that was N/km", unit.spring / 1e3),
-                "spring_N_per_m, as its maker states"));
-  if (unit.mass > heaviest_slider)
-    add(unit.where, fmt::format("mass_kg of the retraction unit is {:.4g} (limit {:g})", unit.mass, heaviest_slider),
-        "grams instead of kilograms",
-        if_kept(unit.mass / 1e3 <= heaviest_slider, fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3),
-                "mass_kg, as its maker states"));
+  add.number(unit.where, "spring_N_per_m", of, unit.spring, {0, stiffest_spring},
+             {{1e-3, "N/km instead of N/m", "N/km"}}, {"another unit", "spring_N_per_m, as its maker states"});
+  add.number(unit.where, "mass_kg", of, unit.mass, {0, heaviest_slider},
+             {{1e-3, "grams instead of kilograms", "grams"}}, {"another unit", "mass_kg, as its maker states"});
 }
 
 /// Warns of spreads that are too large. Each is a factor of one standard deviation, except that of the slope, which is an addend.
-void doubt_spreads(const Job& job, const AddDoubt& add) {
+void doubt_spreads(const Job& job, const WarningsOfKind& add) {
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (job.uncertainty.spread[p] > widest_spread)
       add({},
@@ -996,14 +963,9 @@ void doubt_spreads(const Job& job, const AddDoubt& add) {
                   fmt::format("no uncertainty.{}", uncertain_parameters()[p].name)));
 }
 
-Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit,
-                     const std::string& cause, const std::string& remedy) {
-  return warning_of(kind, "", fmt::format("{} is {:.6g} (limit {})", key, value, limit), cause, remedy);
-}
-
 /// Warns of the quaternion of a tool or work object in the order x, y, z, w that leaves the frame nearly unturned. Read as w, x,
 /// y, z it is nearly half a turn about z, which a robot's program may really have, and a key of a job rarely.
-void doubt_order_of_quaternions(const Motion& motion, const AddDoubt& add) {
+void doubt_order_of_quaternions(const Motion& motion, const WarningsOfKind& add) {
   constexpr double nearly_whole = 0.98;  // 23 deg from no turn
   for (const auto& [key, frames] : {std::pair{"tools", &motion.tools}, {"work_objects", &motion.work_objects}})
     for (std::size_t k = 0; k < frames->size(); ++k) {
@@ -1036,11 +998,7 @@ std::vector<Warning> radians_of(T map, const std::string& path) {
 
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
-  const auto add = [&](WarningKind kind, const char* key, double value, const std::string& limit,
-                       const std::string& cause, const std::string& remedy) {
-    warnings.push_back(beyond_limit(kind, key, value, limit, cause, remedy));
-  };
-  const AddDoubt doubt = adding_to(warnings);
+  const WarningsOfKind doubt(warnings, WarningKind::motion), periodic(warnings, WarningKind::periodic);
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
   doubt_order_of_quaternions(job.motion, doubt);
@@ -1053,40 +1011,27 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   for (const MountedDresspack& mounted : job.dresspacks) {
     warnings = joined(std::move(warnings), radians_of(mounted.routing, "routing"));
   }
-  if (job.simulation.most_repeats > repeats_to_steady)
-    add(WarningKind::periodic, "simulation.most_repeats", job.simulation.most_repeats,
-        fmt::format("{} or less", repeats_to_steady),
-        "the repeats in the dresspack's life: the life is extrapolated from one repeat",
-        "simulation.most_repeats: 8, or no key");
-  if (job.simulation.periodic_tolerance > largest_tolerance)
-    add(WarningKind::periodic, "simulation.periodic_tolerance_mm", 1e3 * job.simulation.periodic_tolerance,
-        fmt::format("{:g} or less", 1e3 * largest_tolerance), "another unit: every motion counts as periodic",
-        "simulation.periodic_tolerance_mm: 1");
-  if (job.motion.spot_time > longest_spot)
-    add(WarningKind::motion, "motion.spot_time_s", job.motion.spot_time, fmt::format("{:g} or less", longest_spot),
-        "milliseconds instead of seconds",
-        if_kept(job.motion.spot_time / 1000 <= longest_spot,
-                fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000),
-                "motion.spot_time_s: 1, or the time of a weld in seconds"));
-  if (job.motion.speed_percent < least_percent)
-    add(WarningKind::motion, "motion.speed_percent", job.motion.speed_percent,
-        fmt::format("{:g} or more", least_percent), "a share instead of per cent",
-        if_kept(100 * job.motion.speed_percent >= least_percent,
-                fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent),
-                "motion.speed_percent: 100, or the speed in per cent"));
-  if (job.motion.zone > widest_zone)
-    add(WarningKind::motion, "motion.zone_deg", job.motion.zone / degree,
-        fmt::format("{:g} or less", widest_zone / degree), "another unit, such as mm or per cent",
-        "motion.zone_deg: 0, or the zone that the controller uses");
+  periodic.number({}, "simulation.most_repeats", "", job.simulation.most_repeats, {0, repeats_to_steady}, {},
+                  {"the repeats in the dresspack's life: the life is extrapolated from one repeat",
+                   "simulation.most_repeats: 8, or no key"});
+  periodic.number({}, "simulation.periodic_tolerance_mm", "", 1e3 * job.simulation.periodic_tolerance,
+                  {0, 1e3 * largest_tolerance}, {},
+                  {"another unit: every motion counts as periodic", "simulation.periodic_tolerance_mm: 1"});
+  doubt.number({}, "motion.spot_time_s", "", job.motion.spot_time, {0, longest_spot}, {from_milliseconds},
+               {"another unit", "motion.spot_time_s: 1, or the time of a weld in seconds"});
+  doubt.number({}, "motion.speed_percent", "", job.motion.speed_percent, {least_percent}, {from_share},
+               {"another unit", "motion.speed_percent: 100, or the speed in per cent"});
+  doubt.number({}, "motion.zone_deg", "", job.motion.zone / degree, {0, widest_zone / degree}, {},
+               {"another unit, such as mm or per cent", "motion.zone_deg: 0, or the zone that the controller uses"});
   const Eigen::Vector3d gravity = job.simulation.gravity;
   if (const double size = gravity.norm(); size > 0) {
-    if (std::abs(size / standard_gravity - 1) > gravity_spread)
-      add(WarningKind::motion, "the size of simulation.gravity_m_per_s2", size, "9.71 .. 9.90",
-          size < 2 ? "multiples of g instead of m/s2" : "another unit", "simulation.gravity_m_per_s2: [0, 0, -9.81]");
-    if (gravity.z() > -down * size)
-      add(WarningKind::motion, "the upward part of simulation.gravity_m_per_s2", gravity.z(),
-          fmt::format("{:.4g}: downward", -down * size), "a wrong sign or axis",
-          "simulation.gravity_m_per_s2: [0, 0, -9.81]; leave it if the robot hangs on a wall or a ceiling");
+    constexpr const char* downward = "simulation.gravity_m_per_s2: [0, 0, -9.81]";
+    doubt.number({}, "the size of simulation.gravity_m_per_s2", "", size,
+                 {(1 - gravity_spread) * standard_gravity, (1 + gravity_spread) * standard_gravity}, {},
+                 {size < 2 ? "multiples of g instead of m/s2" : "another unit", downward});
+    doubt.number(
+        {}, "the upward part of simulation.gravity_m_per_s2", "", gravity.z(), {-no_limit, -down * size, ": downward"},
+        {}, {"a wrong sign or axis", fmt::format("{}; leave it if the robot hangs on a wall or a ceiling", downward)});
   }
   return warnings;
 }
@@ -1205,46 +1150,34 @@ void doubt_calibration(const Job& job, std::vector<Warning>& warnings) {
 
 std::vector<Warning> plausibility_of_lives(const Job& job) {
   std::vector<Warning> warnings;
-  const auto add = [&](const char* key, double value, const std::string& limit, const std::string& cause,
-                       const std::string& remedy) {
-    warnings.push_back(beyond_limit(WarningKind::material, key, value, limit, cause, remedy));
-  };
+  const WarningsOfKind add(warnings, WarningKind::material);
   const Fatigue& fatigue = job.fatigue;
-  if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
-    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more", "a share instead of per cent",
-        fmt::format("fatigue.failed_wires_percent: {:g}",
-                    100 * fatigue.failed_wires_percent >= 1 && 100 * fatigue.failed_wires_percent <= most_failed_wires
-                        ? 100 * fatigue.failed_wires_percent
-                        : 10));
-  if (fatigue.failed_wires_percent > most_failed_wires)
-    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, fmt::format("{:g} or less", most_failed_wires),
-        "a conductor that works with few wires, whose current and load the lives do not contain. Its median life is at most ten "
-        "times that of the worst wire",
-        "fatigue.failed_wires_percent: 10");
+  if (const double percent = fatigue.failed_wires_percent; percent > 0)
+    add.number(
+        {}, "fatigue.failed_wires_percent", "", percent, {1, most_failed_wires, ", or 0"}, {from_share},
+        {percent < 1 ? "a share instead of per cent"
+                     : "a conductor that works with few wires, whose current and load the lives do not contain. Its "
+                       "median life is at most ten times that of the worst wire",
+         "fatigue.failed_wires_percent: 10"});
   for (const auto& [key, value] : {std::pair{"inspection.found_percent", job.inspection.found_percent},
                                    {"inspection.visible_depth_percent", job.inspection.visible_depth_percent}})
     if (value > 0 && value <= 1)
-      add(key, value, "0, or more than 1", "a share instead of per cent",
+      add({}, fmt::format("{} is {:.6g} (limit 0, or more than 1)", key, value), "a share instead of per cent",
           if_kept(100 * value > 1, fmt::format("{}: {:g}", key, 100 * value), fmt::format("no {}, or per cent", key)));
-  if (fatigue.robot_life_hours < least_robot_life)
-    add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
-        "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
-  if (fatigue.operating_hours_per_week < least_week)
-    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week, fmt::format("{:g} or more", least_week),
-        "a share of the week, or another unit",
-        "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
-  else if (fatigue.operating_hours_per_week <= hours_of_day)
-    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
-        fmt::format("more than {:g}", hours_of_day), "hours of a day",
+  add.number({}, "fatigue.robot_life_hours", "", fatigue.robot_life_hours, {least_robot_life}, {},
+             {"years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out"});
+  if (const double hours = fatigue.operating_hours_per_week; hours >= least_week && hours <= hours_of_day)
+    add({}, fmt::format("fatigue.operating_hours_per_week is {:g} (limit more than {:g})", hours, hours_of_day),
+        "hours of a day",
         fmt::format(
             "fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
-            5 * fatigue.operating_hours_per_week));
-  if (fatigue.endurance_strain > largest_endurance)
-    add("fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
-        "per cent instead of a share",
-        if_kept(fatigue.endurance_strain / 100 <= largest_endurance,
-                fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100),
-                "no fatigue.endurance_strain"));
+            5 * hours));
+  else
+    add.number({}, "fatigue.operating_hours_per_week", "", hours, {least_week}, {},
+               {"a share of the week, or another unit",
+                "fatigue.operating_hours_per_week: 80, or the hours of motion in a week"});
+  add.number({}, "fatigue.endurance_strain", "", fatigue.endurance_strain, {0, largest_endurance}, {from_percent},
+             {"another unit", "no fatigue.endurance_strain"});
   const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},
                                                     {"fatigue.model_factor", fatigue.model_factor},
                                                     {"fatigue.motion_factor", fatigue.motion_factor},
@@ -1254,12 +1187,11 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                                                     {"strain.play_factor", job.strain.factors.play},
                                                     {"strain.grip_factor", job.strain.factors.grip}};
   for (const auto& [key, value] : factors)
-    if ((!job.calibration || job.calibration->typical) && (value > largest_factor || value < 1 / largest_factor))
-      add(key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
-          "per cent instead of a factor, or a factor for a trial",
-          if_kept(value > 1 && value / 100 <= largest_factor,
-                  fmt::format("{}: {:g} if that was per cent", key, value / 100), fmt::format("{}: 1", key)));
-  doubt_spreads(job, adding_to(warnings));
+    if (!job.calibration || job.calibration->typical)
+      add.number({}, key, "", value, {1 / largest_factor, largest_factor},
+                 {{1e-2, "per cent instead of a factor, or a factor for a trial", "per cent"}},
+                 {"another unit, or a factor for a trial", fmt::format("{}: 1", key)});
+  doubt_spreads(job, WarningsOfKind(warnings, WarningKind::motion));
   doubt_calibration(job, warnings);
   for (const MountedDresspack& mounted : job.dresspacks) {
     doubt_pressures(mounted.dresspack, job.cell.temperature, warnings);
@@ -1268,15 +1200,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
       if (job.motion.needs_robot() && slides(job.strain.slip.front())) doubt_cores(mounted.dresspack, warnings);
     }
   }
-  if (job.strain.gate > largest_gate)
-    warnings.push_back(
-        warning_of(WarningKind::strain, "",
-                   fmt::format("strain.gate is {:g} (limit {:g} or less): cycles below it are left out",
-                               job.strain.gate, largest_gate),
-                   job.strain.gate / 100 <= largest_gate ? "per cent instead of a share" : "another unit",
-                   if_kept(job.strain.gate / 100 <= largest_gate,
-                           fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100),
-                           fmt::format("strain.gate: {:g}, or no key", largest_gate))));
+  WarningsOfKind(warnings, WarningKind::strain)
+      .number({}, "strain.gate", "", job.strain.gate, {0, largest_gate, ": cycles below it are left out"},
+              {from_percent},
+              {"another unit", fmt::format("strain.gate: {:g}, or no key", largest_gate), ", or no key"});
   return warnings;
 }
 
@@ -1354,17 +1281,13 @@ std::vector<Warning> warnings_of_descriptions(const Job& job) {
 std::vector<Warning> plausibility_of_motion(const Job& job) {
   const Motion& motion = job.motion;
   std::vector<Warning> warnings = doubts_of_motion(job);
-  if (!motion.is_prescribed() && job.simulation.sample_rate < least_rate)
-    warnings.push_back(warning_of(
-        WarningKind::mesh, "",
-        fmt::format("simulation.sample_rate_Hz is {:g} (limit {:g} or more)", job.simulation.sample_rate, least_rate),
-        "seconds instead of 1/s; the samples miss the hose's swing", "simulation.sample_rate_Hz: 25"));
-  if (!motion.is_prescribed() && !job.simulation.choose_time_step && job.simulation.time_step > largest_step)
-    warnings.push_back(warning_of(WarningKind::mesh, "",
-                                  fmt::format("simulation.time_step_ms is {:g} (limit {:g} or less)",
-                                              1e3 * job.simulation.time_step, 1e3 * largest_step),
-                                  "a digit too many; larger steps were not tested",
-                                  "simulation.time_step_ms: 5, or auto"));
+  const WarningsOfKind add(warnings, WarningKind::mesh);
+  if (!motion.is_prescribed())
+    add.number({}, "simulation.sample_rate_Hz", "", job.simulation.sample_rate, {least_rate}, {},
+               {"seconds instead of 1/s; the samples miss the hose's swing", "simulation.sample_rate_Hz: 25"});
+  if (!motion.is_prescribed() && !job.simulation.choose_time_step)
+    add.number({}, "simulation.time_step_ms", "", 1e3 * job.simulation.time_step, {0, 1e3 * largest_step}, {},
+               {"a digit too many; larger steps were not tested", "simulation.time_step_ms: 5, or auto"});
   if (!motion.is_prescribed())
     for (const MountedDresspack& mounted : job.dresspacks)
       doubt_bend_reliefs(mounted, job.simulation.segments, warnings);

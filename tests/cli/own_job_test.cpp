@@ -139,7 +139,8 @@ const Row rows[] = {
     {"nod.src", "Z 150", "Z -150", Answer::warned, "nod.src:5:", "lies 150 mm behind the flange, in the arm",
      "[0, 0, 150] in its declaration"},
     {"pack.yaml", "hose_material: hose_polyamide", "hose_material: copper", Answer::warned, "pack.yaml:1:1",
-     "hose_material 'copper' has youngs_modulus_GPa 117 (limit 15 or less: polymers)", "hose_material: hose_polyamide"},
+     "youngs_modulus_GPa of hose_material 'copper' is 117 (limit 15 or less: polymers)",
+     "hose_material: hose_polyamide"},
     {"nod.src", "Z 150", "Z 0.15", Answer::warned,
      "nod.src:5:", "tool '$TOOL' lies 0.15 mm from the frame in which it is given", "[0, 0, 150] in its declaration"},
     {"job.yaml", "motion: nod.src", "motion: " DRESSLIFE_SOURCE_DIR "/config/programs/side_panel.mod", Answer::refused,
@@ -180,7 +181,7 @@ const Row rows[] = {
      "job.yaml:7:22", "joint_a6 turns by -180 deg", "routing.mounting_pose_deg with 0.0 for joint_a6"},
     {"job.yaml", "free_length", "mounting_pose_deg: [0, 0, 0, 0, 0, 0]\n  free_length", Answer::asked, "",
      "routing.mounting_pose_deg is 0 for all axes", "leave the key out"},
-    {"job.yaml", "1.035", "103.5", Answer::refused, "job.yaml:5:3", "routing.free_length_m is 103.5 (limit 20)",
+    {"job.yaml", "1.035", "103.5", Answer::refused, "job.yaml:5:3", "routing.free_length_m is 103.5 (limit 20 or less)",
      "routing.free_length_m: 1.035 if that was centimetres"},
     // The dresspack
     {"job.yaml", "dresspack: pack.yaml", "dresspack: pack", Answer::refused, "job.yaml:3:12",
@@ -238,7 +239,7 @@ const Row rows[] = {
     // Settings, with their lines
     setting("uncertainty: {slack: 60}", "job.yaml:8:22", "uncertainty.slack is 60 (limit 20",
             "uncertainty.slack: 1.6 if that was per cent"),
-    setting("strain: {gate: 0.1}", "job.yaml:8:16", "strain.gate is 0.1 (limit 0.0002 or less)",
+    setting("strain: {gate: 0.1}", "job.yaml:8:16", "strain.gate is 0.1 (limit 0.0002 or less: cycles below",
             "strain.gate: 0.0002, or no key"),
     simulation_key("time_step_ms: 20", "simulation.time_step_ms is 20 (limit 10 or less)",
                    "simulation.time_step_ms: 5, or auto"),

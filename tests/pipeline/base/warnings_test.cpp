@@ -68,3 +68,31 @@ TEST_CASE("warnings of a stage stand behind the earlier ones, each once") {
   CHECK(a.line() == "warning: a");
   CHECK((Warning{WarningKind::program, "p.mod:1", "c"}).line() == "p.mod:1: warning: c");
 }
+
+TEST_CASE(
+    "a number outside of its limits is warned of with the units in which it keeps them, else with the other remedy") {
+  constexpr OtherUnit from_metres{1e3, "metres instead of millimetres", "metres"},
+      from_inches{25.4, "inches", "inches"};
+  const auto words = [&](double value, const Limits& limits, const Otherwise& otherwise = {}) {
+    std::vector<Warning> warnings;
+    WarningsOfKind(warnings, WarningKind::mesh)
+        .number({"job.yaml", 3}, "width_mm", " of 'a'", value, limits, {from_metres, from_inches}, otherwise);
+    return warnings.empty() ? "" : warnings[0].line();
+  };
+  const std::string begin = "job.yaml:3: warning: width_mm of 'a' is ";
+  for (const double within : {5.0, 7.0, 200.0, 200.0 * (1 + 1e-15)}) CHECK(words(within, {5, 200}) == "");
+  CHECK(
+      words(0.05, {5, 200}) ==
+      begin +
+          "0.05 (limits 5 .. 200). Likely cause: metres instead of millimetres. Remedy: width_mm: 50 if that was metres");
+  CHECK(
+      words(1, {20, 2000, ": a hose"}, {"none", "none", ", or no key"}) ==
+      begin +
+          "1 (limits 20 .. 2000: a hose). Likely cause: metres instead of millimetres. Remedy: width_mm: 1000 if that was "
+          "metres, 25.4 if that was inches, or no key");
+  CHECK(words(300, {0, 200}) ==
+        begin + "300 (limit 200 or less). Likely cause: another unit. Remedy: width_mm: 200 or less");
+  CHECK(words(-1, {0, 200}) == begin + "-1 (limits 0 .. 200). Likely cause: another unit. Remedy: width_mm: 0 .. 200");
+  CHECK(words(1e-9, {5}, {"a slip", "as measured"}) ==
+        begin + "1e-09 (limit 5 or more). Likely cause: a slip. Remedy: as measured");
+}
