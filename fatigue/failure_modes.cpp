@@ -56,10 +56,19 @@ class Modes {
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;
     std::vector<bool> counts(in_.sites.size());
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
-    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job, in_.threads);
+    std::vector<VariedStrains> varied = only(in_.varied, counts);
+    const std::size_t variations = varied.size();
+    if (in_.equivalent_of) {
+      VariedStrains& equivalent = varied.emplace_back();
+      equivalent.site = own.site;
+      for (const std::size_t site : own.site) equivalent.strains.push_back(in_.equivalent_of(site));
+    }
+    fill_response(response, own, varied, in_.sites, in_.component, in_.job, in_.threads);
+    const double by_planes = in_.equivalent_of ? put_planes(response) : 0;
+    if (in_.starts.size() > 1) put_rests(response, std::span(varied).first(variations), in_.starts);
     put_taut(response, in_.taut);
-    set_bound(response, pipeline::Inside::glued, in_.glued[mode]);
-    set_bound(response, pipeline::Inside::free, in_.free[mode]);
+    set_bound(response, pipeline::Inside::glued, in_.glued[mode], by_planes);
+    set_bound(response, pipeline::Inside::free, in_.free[mode], by_planes);
     add_planned(mode, response);
     return response;
   }
@@ -138,10 +147,11 @@ class Modes {
                                   zero(response.slope));
   }
 
-  /// Sets a bound. Without damage the bound is W at this point, which includes damage at longer lives.
-  static void set_bound(LifeResponse& response, pipeline::Inside inside, double repeats) {
+  /// Sets a bound, which has only equivalent strains. Without damage it is W at this point, which includes damage at longer lives.
+  /// by_planes: see put_planes() [decades].
+  static void set_bound(LifeResponse& response, pipeline::Inside inside, double repeats, double by_planes) {
     double& bound = response.bound[static_cast<std::size_t>(inside)];
-    bound = log10_life(repeats);
+    bound = std::min(LifeResponse::undamaged, log10_life(repeats) + (std::isinf(repeats) ? 0 : by_planes));
     for (std::size_t point = 0; point < response.points.size() && std::isinf(repeats); ++point)
       if (response.inside[point] == inside &&
           std::ranges::all_of(response.points[point], [](double z) { return z == 0; }))

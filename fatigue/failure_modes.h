@@ -45,7 +45,8 @@ struct ModeInputs {
   const Conductors& conductors;
   const std::vector<PlacesOfConductor>& places;
   std::size_t segments, threads;
-  std::function<std::vector<float>(std::size_t site)> strains_of;
+  std::function<std::vector<float>(std::size_t site)> strains_of;     ///< empty: its planes were not evaluated
+  std::function<std::vector<float>(std::size_t site)> equivalent_of;  ///< see put_planes(); null: without planes
   std::vector<std::size_t> starts;    ///< (rest) number of starts of loose cables, see read_rests()
   std::vector<VariedStrains> varied;  ///< empty: only the scatter of wires is uncertain
   std::vector<double> taut;           ///< see read_taut_stiffnesses()

@@ -729,6 +729,12 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
   if (c.job.uncertainty.enabled)
     varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain),
     taut = read_taut_stiffnesses(c.strain);
+  std::function<std::vector<float>(std::size_t)> strains_of = [&](std::size_t site) { return c.strains_of(site); },
+                                                 equivalent_of;
+  if (!c.planes->empty()) {
+    strains_of = [&](std::size_t site) { return c.planes->of(site) ? c.strains_of(site) : std::vector<float>(); };
+    equivalent_of = [&](std::size_t site) { return as_floats(c.sites.reversals_of(site)); };
+  }
   const ModeInputs inputs{c.job,
                           c.sites,
                           c.component,
@@ -737,7 +743,8 @@ pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& mode
                           places,
                           c.segment_length.size(),
                           c.threads,
-                          [&](std::size_t site) { return c.strains_of(site); },
+                          std::move(strains_of),
+                          std::move(equivalent_of),
                           std::move(starts),
                           std::move(varied),
                           std::move(taut),

@@ -74,6 +74,14 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   return log10_of_life(worst);
 }
 
+/// Returns the number of the job's own strength and slope among those of a point.
+std::size_t own_node(const LifeResponse& response) {
+  const auto zero_of = [](const std::vector<double>& z) {
+    return static_cast<std::size_t>(std::ranges::find(z, 0.0) - z.begin());
+  };
+  return zero_of(response.strength) * response.slope.size() + zero_of(response.slope);
+}
+
 constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
 
 /// Returns whether a variation differs from the job only by the rest.
@@ -167,11 +175,7 @@ std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const 
 
 void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
                const std::vector<std::size_t>& starts) {
-  const auto zero_of = [](const std::vector<double>& z) {
-    return static_cast<std::size_t>(std::ranges::find(z, 0.0) - z.begin());
-  };
-  const std::size_t nodes = response.strength.size() * response.slope.size(),
-                    middle = zero_of(response.strength) * response.slope.size() + zero_of(response.slope);
+  const std::size_t nodes = response.strength.size() * response.slope.size(), middle = own_node(response);
   std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
   for (std::size_t v = 0; v < varied.size(); ++v)
     if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
@@ -201,8 +205,7 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
 }
 
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
-                   const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
-                   const pipeline::Job& job, std::size_t threads) {
+                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job, std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
   response.points = {{}}, response.inside = {pipeline::Inside::as_is};
@@ -234,7 +237,24 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, s
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters.at(*points[k]), workspace);
     }
   });
-  if (starts.size() > 1) put_rests(response, varied, starts);
+}
+
+double put_planes(pipeline::LifeResponse& response) {
+  const std::size_t nodes = response.strength.size() * response.slope.size(), last = response.points.size() - 1;
+  std::vector<double>& lives = response.worst_life;
+  double own = 0;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double by_plane = lives[node], equivalent = lives[last * nodes + node];
+    if (std::max(by_plane, equivalent) >= LifeResponse::undamaged) continue;
+    if (node == own_node(response)) own = by_plane - equivalent;
+    for (std::size_t point = 1; point < last; ++point) {
+      double& life = lives[point * nodes + node];
+      life = std::min(LifeResponse::undamaged, life + by_plane - equivalent);
+    }
+  }
+  response.points.pop_back(), response.inside.pop_back();
+  lives.resize(last * nodes);
+  return own;
 }
 
 std::vector<double> read_taut_stiffnesses(const pipeline::FileReader& strain) {

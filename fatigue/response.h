@@ -33,10 +33,14 @@ std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const 
 std::vector<std::size_t> read_rests(const pipeline::FileReader& strain);
 
 /// Fills in log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength, slope). The
-/// first point is the job itself with its wires `own`. starts: (rest), see read_rests() and put_rests().
+/// first point is the job itself with its wires `own`.
 void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
-                   const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
-                   const pipeline::Job& job, std::size_t threads);
+                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job, std::size_t threads);
+
+/// Removes the last point, the job itself with the equivalent strains (F17) of its wires, where `own` has those across their planes
+/// (F18). Adds the difference of both points to all others, which have only equivalent strains. Returns this difference at the
+/// job's own strength and slope [decades]. Where either point has no damage it is 0.
+double put_planes(pipeline::LifeResponse& response);
 
 /// Returns z of hose_stiffness from which on a softer and a stiffer hose are pulled tight (attributes of strain.h5); empty: none is.
 std::vector<double> read_taut_stiffnesses(const pipeline::FileReader& strain);

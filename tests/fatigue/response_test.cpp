@@ -302,7 +302,7 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
     const pipeline::FileReader file(sites.folder / "strain.h5", Sites::format());
     const fatigue::SiteSet set(file, "");
     LifeResponse response;
-    fatigue::fill_response(response, own, varied, {}, set, fatigue::read_column(file, "/site/component"), sites.job, 2);
+    fatigue::fill_response(response, own, varied, set, fatigue::read_column(file, "/site/component"), sites.job, 2);
     REQUIRE(response.points.size() == 5);
     const std::size_t slopes = response.slope.size(), nodes = response.strength.size() * slopes;
     REQUIRE(response.worst_life.size() == 5 * nodes);

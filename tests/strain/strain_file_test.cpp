@@ -18,6 +18,7 @@
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/job.h"
+#include "pipeline/life/first_failure.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "strain/shortening.h"
@@ -610,6 +611,38 @@ TEST_CASE(
   CHECK(all > 0);
   CHECK(rows["cable"].size() == all);
   CHECK(rows["middle"].size() == all);
+}
+
+TEST_CASE("with planes a friction without influence does not change the life") {
+  const Scratch scratch;
+  // Twist, which shears thick wires, and little bending: at small strains the sums of (range times tensile peak)^3 find the worst wire.
+  write_motion(scratch / "motion.h5", samples, 0.04, [](std::size_t t) {
+    return Eigen::Vector3d(0.1 * rate_at(t).x(), 0.1 * rate_at(t).y(), rate_at(t).z());
+  });
+  std::string text = replaced(pipeline::sample_job, "slip: [stick, free]", "slip: [stick, friction]");
+  text = replaced(text, "radius_mm: 0.1, helix_radius_mm: 2.5, lay_angle_deg: 25",
+                  "radius_mm: 1, helix_radius_mm: 2.5, lay_angle_deg: 10");
+  text = replaced(text, "material: copper}", "material: copper, friction_coefficient: 0}");
+  const pipeline::Job job = pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
+                                               {"uncertainty.enabled=true", "strain.equivalent=critical_plane"});
+  evaluate(scratch / "motion.h5", scratch / "strain.h5", job);
+  judge(FileReader(scratch / "strain.h5", pipeline::strain_format()), job, scratch / "life.h5");
+  const FileReader life(scratch / "life.h5", pipeline::life_format());
+  const auto modes = pipeline::modes_from_text(life.text_attribute("life_response"));
+  REQUIRE(modes.size() == 1);
+  // The bound has equivalent strains, the job planes.
+  REQUIRE(life.number_attribute("life_repeats") > 1.1 * life.number_attribute("life_repeats_all_free"));
+  const pipeline::LifeResponse& response = modes[0];
+  REQUIRE(response.points.size() == 6);
+  const std::size_t nodes = response.strength.size() * response.slope.size();
+  constexpr double rounded = 1e-3;  // strains of variations have rounding errors of single precision, 1e-4 of a range
+  CHECK(response.worst_life[nodes / 2] == Approx(std::log10(life.number_attribute("life_repeats"))).margin(rounded));
+  for (std::size_t point = 1; point < 6; ++point)
+    for (std::size_t node = 0; node < nodes && response.inside[point] != pipeline::Inside::glued; ++node)
+      CHECK(response.worst_life[point * nodes + node] == Approx(response.worst_life[node]).margin(rounded));
+  // The bound is the life of a wire in the table's accuracy, W exactly.
+  CHECK(response.bound[static_cast<std::size_t>(pipeline::Inside::free)] ==
+        Approx(response.worst_life[nodes / 2]).margin(rounded));
 }
 
 TEST_CASE(
