@@ -706,18 +706,18 @@ TEST_CASE("cables bend most where their curvature changes, not where it is large
   CablePaths paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length),
                    {.rub = true, .elements_per_segment = 1}, std::vector<double>(segments, length / segments), arcs,
                    samples);
-  const auto history = [&](double change) {  // in each sample [1/m]
-    DeformationHistory history(segments, samples);
+  const auto bends = [&](double change) {  // in each sample [1/m]
+    DeformationHistory block(segments, samples);
     for (std::size_t t = 0; t < samples; ++t)
       for (std::size_t i = 0; i < segments; ++i) {
         const double z = arcs[i] / length, bump = std::pow(std::sin(2 * pi * z), 2);
-        history.set(i, t, {(z < 0.5 ? 2 : change * static_cast<double>(t)) * bump, 0, 0, 0});
+        block.set(i, t, {(z < 0.5 ? 2 : change * static_cast<double>(t)) * bump, 0, 0, 0});
       }
-    return history;
+    return block;
   };
   CablePaths* const all = &paths;
-  for (int k = 0; k < 50; ++k) CablePaths::lead_in({&all, 1}, {history(0)});
-  paths.add({history(0.02)});
+  for (int k = 0; k < 50; ++k) CablePaths::lead_in({&all, 1}, {bends(0)});
+  paths.add({bends(0.02)});
   paths.find_bent();
   CHECK(paths.any_loose());
   CHECK(paths.bent_most(segments / 4).empty());
