@@ -29,9 +29,9 @@ constexpr int most_attempts = 20;
 
 // Time in which cables with another slack get this slack [s]. All of it at once would lie in short waves.
 constexpr double feeding = 15;
-// Only cables are evaluated whose sum of eighth powers of curvature is at least this share of the largest sum.
-// Half of the largest curvature gives 0.4 % of the sum.
-constexpr double bent_share = 1e-2;
+// Only cables are evaluated whose sum of eighth powers is at least this share of the largest sum: 0.42 of the largest change of
+// curvature. Tension and constant bends, which the sum does not contain, can make their wires the worst.
+constexpr double bent_share = 1e-3;
 
 /// Returns the place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {

@@ -82,7 +82,7 @@ class CablePaths {
   /// Computes for each segment and loose cable the sum over turning points of (change of curvature)^8, the largest of four
   /// directions. Precondition: all samples were added.
   void find_bent();
-  /// Returns the parts of the loose cables whose sum in this segment is at least a hundredth of the largest sum of their
+  /// Returns the parts of the loose cables whose sum in this segment is at least a thousandth of the largest sum of their
   /// component. Precondition: find_bent().
   std::vector<int> bent_most(std::size_t segment) const;
 
