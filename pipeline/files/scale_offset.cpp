@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
-#include <utility>
+#include <limits>
+#include <type_traits>
 
 namespace dresslife::pipeline {
 namespace {
@@ -14,230 +14,119 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "headers and numbers are written as they lie in memory");
 
 constexpr std::size_t header_bytes = 21;
-constexpr int whole = 32;             // bits of an unchanged number
-constexpr std::size_t group = whole;  // this many numbers fill whole words with any number of bits
+constexpr int word_bits = 64;
+template <class T>
+constexpr int whole = 8 * sizeof(T);  // bits of an unchanged number
+// A number with at most seven other bits before it in its first byte ends within eight bytes, and a double represents this number
+// of steps exactly.
+template <class T>
+constexpr int most_bits = std::min(whole<T> - 1, 52);
 
 std::size_t chunk_bytes(std::size_t numbers, int bits) { return header_bytes + numbers * bits / 8 + 1; }
 
-std::uint32_t swapped(std::uint32_t word) { return __builtin_bswap32(word); }
-
-/// Packs 32 numbers into `bits` words; unpack_group() does the inverse. All shifts are constants in the unrolled loop.
-template <int bits>
-void pack_group(const std::uint32_t* in, char* out) {
-  std::uint64_t held = 0;
-  int count = 0;  // number of bits in `held`
-#pragma GCC unroll 32
-  for (std::size_t k = 0; k < group; ++k) {
-    held = held << bits | in[k];
-    count += bits;
-    if (count >= 32) {
-      count -= 32;
-      const std::uint32_t word = swapped(static_cast<std::uint32_t>(held >> count));
-      std::memcpy(out, &word, sizeof(word));
-      out += sizeof(word);
-    }
-  }
-}
-
-template <int bits>
-void unpack_group(const char* in, std::uint32_t* out) {
-  constexpr std::uint32_t mask = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
-  std::uint64_t held = 0;
-  int count = 0;
-#pragma GCC unroll 32
-  for (std::size_t k = 0; k < group; ++k) {
-    if (count < bits) {
-      std::uint32_t word;
-      std::memcpy(&word, in, sizeof(word));
-      in += sizeof(word);
-      held = held << 32 | swapped(word);
-      count += 32;
-    }
-    count -= bits;
-    out[k] = static_cast<std::uint32_t>(held >> count) & mask;
-  }
-}
-
-template <int... bits>
-constexpr auto packers(std::integer_sequence<int, bits...>) {
-  return std::array{pack_group<bits + 1>...};
-}
-template <int... bits>
-constexpr auto unpackers(std::integer_sequence<int, bits...>) {
-  return std::array{unpack_group<bits + 1>...};
-}
-constexpr auto pack_by_bits = packers(std::make_integer_sequence<int, whole - 1>{});
-constexpr auto unpack_by_bits = unpackers(std::make_integer_sequence<int, whole - 1>{});
-
-float power_of_ten(int decimals) { return static_cast<float>(std::pow(10.0, decimals)); }
-
-/// steps() returns the bits for a number, number_at() the number for these bits.
-std::uint32_t steps(float number, float smallest, float scale) {
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>((number - smallest) * scale + 0.5f));
-}
-float number_at(std::uint32_t steps, float smallest, float scale) {
-  return static_cast<float>(static_cast<std::int32_t>(steps)) / scale + smallest;
-}
-
-/// Returns the number of bits for numbers up to `largest`; `whole` if the steps have more digits than a float.
-int bits_for(float largest, float smallest, float scale) {
-  constexpr float most_steps = 1 << 23;
-  const float span = (largest - smallest) * scale;
-  return span < most_steps ? std::bit_width(steps(largest, smallest, scale)) : whole;
-}
-
-constexpr int whole_double = 64;
-// A number with at most seven other bits before it in its first byte ends within eight bytes, and a double represents this number
-// of steps exactly.
-constexpr int most_bits_of_double = 52;
-
-/// Returns the eight bytes at `at`, the first one as the most significant.
-std::uint64_t word_at(const char* at) {
-  std::uint64_t word;
-  std::memcpy(&word, at, sizeof(word));
-  return __builtin_bswap64(word);
-}
-
-int bits_for(double largest, double smallest, double scale) {
-  const double span = (largest - smallest) * scale + 0.5;
-  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span)) : whole_double;
-}
-
-/// Makes the chunk long enough for the packed numbers and `spare` more bytes, and writes its head.
-/// Returns the place of the packed numbers.
 template <class T>
-char* begin_chunk(std::size_t count, std::int32_t bits, T smallest, std::size_t spare, std::vector<char>& chunk) {
-  chunk.assign(chunk_bytes(count, bits) + spare, 0);
+using Steps = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+/// Returns the number of steps from the smallest number.
+template <class T>
+Steps<T> steps_of(T number, T smallest, T scale) {
+  return static_cast<Steps<T>>((number - smallest) * scale + T{0.5});
+}
+
+/// Returns the number of bits for numbers up to `largest`; `whole` if the steps have more digits than T.
+template <class T>
+int bits_for(T largest, T smallest, T scale) {
+  const T most_steps = std::exp2(T{std::numeric_limits<T>::digits - 1});
+  const T span = (largest - smallest) * scale + T{0.5};
+  return span < most_steps ? std::bit_width(static_cast<std::uint64_t>(steps_of(largest, smallest, scale))) : whole<T>;
+}
+
+template <class T>
+void pack(std::span<const T> numbers, int decimals, std::vector<char>& chunk) {
+  T smallest = numbers[0], largest = numbers[0];
+  for (const T number : numbers) {
+    smallest = number < smallest ? number : smallest;
+    largest = number > largest ? number : largest;
+  }
+  const T scale = static_cast<T>(std::pow(10.0, decimals));
+  const std::int32_t bits = bits_for(largest, smallest, scale);
+  chunk.assign(chunk_bytes(numbers.size(), bits) + sizeof(std::uint64_t), 0);  // the last word may end beyond the chunk
   std::memcpy(chunk.data(), &bits, sizeof(bits));
   chunk[4] = 8;
   std::memcpy(chunk.data() + 5, &smallest, sizeof(smallest));
-  return chunk.data() + header_bytes;
+  char* out = chunk.data() + header_bytes;
+  if (bits == whole<T>) {
+    std::memcpy(out, numbers.data(), numbers.size_bytes());
+  } else if (bits > 0) {
+    std::uint64_t word = 0;
+    int left = word_bits;  // bits of `word` that are free
+    const auto put = [&] {
+      const std::uint64_t swapped = __builtin_bswap64(word);
+      std::memcpy(out, &swapped, sizeof(swapped));
+    };
+    for (const T number : numbers) {
+      const auto step = static_cast<std::uint64_t>(steps_of(number, smallest, scale));
+      left -= bits;
+      if (left >= 0) {
+        word |= step << left;
+        continue;
+      }
+      word |= step >> -left;
+      put();
+      out += sizeof(word);
+      left += word_bits;
+      word = step << left;
+    }
+    put();
+  }
+  chunk.resize(chunk_bytes(numbers.size(), bits));
 }
 
-/// The head of a chunk.
 template <class T>
-struct Head {
+bool unpack(std::span<const char> chunk, int decimals, std::span<T> numbers) {
+  if (chunk.size() < header_bytes) return false;
   std::int32_t bits;
   T smallest;
-};
-/// Returns the head; std::nullopt: the chunk is shorter than a head.
-template <class T>
-std::optional<Head<T>> head_of(std::span<const char> chunk) {
-  if (chunk.size() < header_bytes) return std::nullopt;
-  Head<T> head;
-  std::memcpy(&head.bits, chunk.data(), sizeof(head.bits));
-  std::memcpy(&head.smallest, chunk.data() + 5, sizeof(head.smallest));
-  return head;
+  std::memcpy(&bits, chunk.data(), sizeof(bits));
+  std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
+  const bool possible = (bits >= 0 && bits <= most_bits<T>) || bits == whole<T>;
+  if (!possible || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
+  const std::span<const char> stream = chunk.subspan(header_bytes);
+  if (bits == whole<T>) {
+    std::memcpy(numbers.data(), stream.data(), numbers.size_bytes());
+    return true;
+  }
+  const T scale = static_cast<T>(std::pow(10.0, decimals));
+  std::array<Steps<T>, 256> steps{};  // of the next numbers; the compiler vectorises the second loop
+  for (std::size_t first = 0; first < numbers.size(); first += steps.size()) {
+    const std::size_t count = std::min(steps.size(), numbers.size() - first);
+    for (std::size_t k = 0; k < count && bits > 0; ++k) {
+      const std::size_t bit = (first + k) * static_cast<std::size_t>(bits);
+      std::uint64_t word = 0;
+      if (bit / 8 + sizeof(word) <= stream.size())
+        std::memcpy(&word, stream.data() + bit / 8, sizeof(word));
+      else  // the last words may end beyond the chunk
+        std::memcpy(&word, stream.data() + bit / 8, stream.size() - bit / 8);
+      steps[k] = static_cast<Steps<T>>(__builtin_bswap64(word) << bit % 8 >> (word_bits - bits));
+    }
+    for (std::size_t k = 0; k < count; ++k) numbers[first + k] = static_cast<T>(steps[k]) / scale + smallest;
+  }
+  return true;
 }
 
 }  // namespace
 
 void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
-  float smallest = numbers[0], largest = numbers[0];
-  for (const float number : numbers) {
-    smallest = number < smallest ? number : smallest;
-    largest = number > largest ? number : largest;
-  }
-  const float scale = power_of_ten(decimals);
-  const std::int32_t bits = bits_for(largest, smallest, scale);
-  char* out = begin_chunk(numbers.size(), bits, smallest, group * sizeof(float),
-                          chunk);  // the last group may be incomplete
-  if (bits == whole) {
-    std::memcpy(out, numbers.data(), numbers.size_bytes());
-  } else if (bits > 0) {
-    std::array<std::uint32_t, group> of_group{};
-    for (std::size_t first = 0; first < numbers.size(); first += group, out += 4 * bits) {
-      const std::size_t count = std::min(group, numbers.size() - first);
-      for (std::size_t k = 0; k < count; ++k) of_group[k] = steps(numbers[first + k], smallest, scale);
-      pack_by_bits[bits - 1](of_group.data(), out);
-    }
-  }
-  chunk.resize(chunk_bytes(numbers.size(), bits));
+  pack(numbers, decimals, chunk);
+}
+void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>& chunk) {
+  pack(numbers, decimals, chunk);
 }
 
 bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers) {
-  const auto head = head_of<float>(chunk);
-  if (!head) return false;
-  const auto [bits, smallest] = *head;
-  if (bits < 0 || bits > whole || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
-  const char* in = chunk.data() + header_bytes;
-  if (bits == whole) {
-    std::memcpy(numbers.data(), in, numbers.size_bytes());
-    return true;
-  }
-  const float scale = power_of_ten(decimals);
-  std::array<std::uint32_t, group> of_group{};
-  std::array<char, group * sizeof(float)> rest{};
-  for (std::size_t first = 0; first < numbers.size(); first += group, in += 4 * bits) {
-    const std::size_t count = std::min(group, numbers.size() - first);
-    if (count < group) {  // its last word may end beyond the chunk
-      std::memcpy(rest.data(), in, std::min<std::size_t>(rest.size(), chunk.data() + chunk.size() - in));
-      in = rest.data();
-    }
-    if (bits > 0) unpack_by_bits[bits - 1](in, of_group.data());
-    for (std::size_t k = 0; k < count; ++k) numbers[first + k] = number_at(of_group[k], smallest, scale);
-  }
-  return true;
+  return unpack(chunk, decimals, numbers);
 }
-
-void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>& chunk) {
-  const auto [smallest, largest] = std::ranges::minmax_element(numbers);
-  const double scale = std::pow(10.0, decimals), least = *smallest;
-  const std::int32_t bits = bits_for(*largest, least, scale);
-  char* const out = begin_chunk(numbers.size(), bits, least, sizeof(std::uint64_t),
-                                chunk);  // the last word may end beyond it
-  if (bits == whole_double) {
-    std::memcpy(out, numbers.data(), numbers.size_bytes());
-  } else if (bits > 0) {
-    std::size_t bit = 0;
-    for (const double number : numbers) {
-      const auto step = static_cast<std::uint64_t>((number - least) * scale + 0.5);
-      char* const at = out + bit / 8;
-      const std::uint64_t word = __builtin_bswap64(word_at(at) | step << (64 - bits - bit % 8));
-      std::memcpy(at, &word, sizeof(word));
-      bit += static_cast<std::size_t>(bits);
-    }
-  }
-  chunk.resize(chunk_bytes(numbers.size(), bits));
-}
-
 bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> numbers) {
-  const auto head = head_of<double>(chunk);
-  if (!head) return false;
-  const auto bits = head->bits;
-  const double smallest = head->smallest;
-  const bool possible = (bits >= 0 && bits <= most_bits_of_double) || bits == whole_double;
-  if (!possible || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
-  const char* const in = chunk.data() + header_bytes;
-  if (bits == whole_double) {
-    std::memcpy(numbers.data(), in, numbers.size_bytes());
-    return true;
-  }
-  const double scale = std::pow(10.0, decimals);
-  const auto number_of = [&](std::uint64_t step) {
-    return static_cast<double>(static_cast<std::int64_t>(step)) / scale + smallest;
-  };
-  if (bits == 0) {
-    std::ranges::fill(numbers, number_of(0));
-    return true;
-  }
-  const auto number_at = [&](const char* at, std::size_t bit) {
-    return number_of(word_at(at) << bit % 8 >> (64 - bits));
-  };
-  // Words of the last numbers may end beyond the chunk.
-  const std::size_t stream = chunk.size() - header_bytes, width = static_cast<std::size_t>(bits);
-  std::array<char, 2 * sizeof(std::uint64_t)> rest{};
-  const std::size_t inside =
-      stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin before this offset
-  std::size_t k = 0;
-  for (; k < numbers.size() && k * width / 8 < inside; ++k) numbers[k] = number_at(in + k * width / 8, k * width);
-  for (; k < numbers.size(); ++k) {
-    const std::size_t at = k * width / 8;
-    rest.fill(0);
-    std::copy_n(in + at, std::min(stream - at, sizeof(std::uint64_t)), rest.data());
-    numbers[k] = number_at(rest.data(), k * width);
-  }
-  return true;
+  return unpack(chunk, decimals, numbers);
 }
 
 }  // namespace dresslife::pipeline
