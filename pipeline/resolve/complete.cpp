@@ -7,7 +7,7 @@
 #include "pipeline/cable/warmth.h"
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/plausible_job.h"
-#include "pipeline/settings/echo_text.h"
+#include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
 
@@ -24,7 +24,7 @@ void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
     std::vector<BendingFriction> friction;
   };
   thread_local std::unordered_map<std::string, Stiffnesses> known;
-  const std::string text = echo_text([&](Fields& f) { describe(f, dresspack); }, {});
+  const std::string text = to_yaml(echo_fields(dresspack));
   const std::string keys = xxh3(fmt::format("{}\n{}", dresspack.stiffness_factor, text));
   if (!known.contains(keys)) {
     take_from_construction(dresspack);

@@ -249,23 +249,24 @@ std::string file_name(const std::filesystem::path& file) { return file.filename(
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> part_sections(const Job& job, JobPart part) {
+EchoSections part_sections(const Job& job, JobPart part, const EchoKeys& omitted) {
   const auto described = part == JobPart::sim      ? describe_sim
                          : part == JobPart::strain ? describe_strain
                                                    : describe_fatigue;
   Job copy = job;  // a part changes it, in the same way at each call
-  return echo_sections(Describe([&](Fields& f) { described(f, copy); }), file_name);
+  return echo_sections(Describe([&](Fields& f) { described(f, copy); }), file_name, omitted);
 }
 
 std::string part_text(const Job& job, JobPart part) { return joined_text(part_sections(job, part)); }
 
 std::string motion_digest(const Job& job) {
   Motion motion = job.motion;
-  std::string text = job.robot.name + echo_text(Describe([&](Fields& f) { describe(f, motion); }), file_name);
+  std::string text =
+      job.robot.name + to_yaml(echo_fields(Describe([&](Fields& f) { describe(f, motion); }), file_name));
   for (const MountedDresspack& mounted : job.dresspacks) {
     Routing routing = mounted.routing;
     text += mounted.name + ":" + mounted.dresspack.name +
-            echo_text(Describe([&](Fields& f) { describe(f, routing); }), file_name);
+            to_yaml(echo_fields(Describe([&](Fields& f) { describe(f, routing); }), file_name));
   }
   for (const std::filesystem::path& file : files_beside(job)) text += xxh3_of_file(file);
   return xxh3(text);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,8 +39,9 @@ std::string stored_job_text(const Job& job, const std::filesystem::path& folder)
 /// give equal results. The text contains names of files without folders.
 enum class JobPart { sim, strain, fatigue };
 std::string part_text(const Job& job, JobPart part);
-/// Returns the same text by its top-level keys.
-std::vector<std::pair<std::string, std::string>> part_sections(const Job& job, JobPart part);
+/// Returns the same text by its top-level keys, without these groups.
+std::vector<std::pair<std::string, std::string>> part_sections(const Job& job, JobPart part,
+                                                               const std::set<std::string, std::less<>>& omitted = {});
 
 /// Returns a digest of motion, robot, routings and names of the dresspacks, with the content of the program. It does not depend on
 /// folders, settings of the calculation and uncertain parameters. Errors: InputError for a file that cannot be read.

@@ -10,7 +10,6 @@
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/check_job.h"
 #include "pipeline/resolve/plausible_job.h"
-#include "pipeline/settings/echo_text.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -149,58 +148,53 @@ const PieceTexts::Sections PieceTexts::of_job{
     {"uncertainty", {Piece::rest}}, {"calibration", {Piece::rest}}};
 const PieceTexts::Sections PieceTexts::whole{{"", {Piece::rest}}};
 
-std::optional<std::string> PieceTexts::known(const SharedJob& job, const Sections& sections, std::size_t text,
-                                             const PieceNumbers& numbers) const {
+std::optional<std::string> PieceTexts::text_of(
+    const SharedJob& job, const Sections& sections, std::size_t text,
+    const std::function<std::optional<EchoSections>(const EchoKeys&)>& make) {
+  constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
+  const PieceNumbers numbers = job.numbers();
   if (numbers == PieceNumbers{}) return std::nullopt;
+  if (kept_ > most_kept) sections_.clear(), kept_ = 0;
+  const auto place = [&](std::size_t k) { return std::pair(text + k, sections[k].numbers(job, numbers)); };
+  EchoKeys known;
+  for (std::size_t k = 0; k < sections.size(); ++k)
+    if (sections_.contains(place(k))) known.emplace(sections[k].key);
+  std::optional<EchoSections> made{std::in_place};
+  if (known.size() < sections.size()) made = make(known);
+  if (!made) return std::nullopt;
   std::string joined;
-  for (const Section& section : sections) {
-    const auto found = sections_.find({text++, section.numbers(job, numbers)});
-    if (found == sections_.end()) return std::nullopt;
-    joined += found->second;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const auto [kept, is_new] = sections_.try_emplace(place(k));
+    for (const auto& [key, words] : *made)
+      if (is_new && (sections[k].key.empty() || sections[k].key == key)) kept->second += words;
+    if (is_new) kept_ += kept->second.size();
+    joined += kept->second;
   }
   return joined;
 }
 
-void PieceTexts::keep(const SharedJob& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
-                      const std::vector<std::pair<std::string, std::string>>& made) {
-  constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
-  if (numbers == PieceNumbers{}) return;
-  if (kept_ > most_kept) sections_.clear(), kept_ = 0;
-  for (const Section& section : sections) {
-    std::string of_section;
-    for (const auto& [key, words] : made)
-      if (section.key.empty() || section.key == key) of_section += words;
-    const auto [kept, is_new] = sections_.try_emplace({text++, section.numbers(job, numbers)}, std::move(of_section));
-    if (is_new) kept_ += kept->second.size();
-  }
-}
-
 std::string PieceTexts::part_text(const SharedJob& job, JobPart part) {
-  const PieceNumbers numbers = job.numbers();
-  const Sections& sections = part == JobPart::sim ? of_sim : whole;
-  const std::size_t text = 100 * static_cast<std::size_t>(part);
-  if (std::optional<std::string> same = known(job, sections, text, numbers)) return *std::move(same);
-  const auto made = part_sections(*job, part);
-  keep(job, sections, text, numbers, made);
-  return joined_text(made);
+  const std::optional<std::string> text =
+      text_of(job, part == JobPart::sim ? of_sim : whole, 100 * static_cast<std::size_t>(part),
+              [&](const EchoKeys& known) { return part_sections(*job, part, known); });
+  return text ? *text : pipeline::part_text(*job, part);
 }
 
 std::string PieceTexts::stored_job_text(const SharedJob& job, const std::string& name) {
-  const PieceNumbers numbers = job.numbers();
-  constexpr std::size_t text = 1000;
   const fs::path folder = around_ / name;
-  const bool beside_others = kind_of_name(folder) != FileKind::link;
-  if (std::optional<std::string> same = beside_others ? known(job, of_job, text, numbers) : std::nullopt)
-    return *std::move(same);
-  bool same_for_others = beside_others;  // the text is the same in every folder beside this one
-  const auto made =
-      echo_sections(Describe([copy = *job](Fields& f) mutable { describe(f, copy); }), [&](const fs::path& file) {
-        fs::path seen = as_seen_from(folder, file);
-        same_for_others = same_for_others && seen.native().starts_with("../../");
-        return seen.string();
-      });
-  if (same_for_others) keep(job, of_job, text, numbers, made);
-  return joined_text(made);
+  const auto make = [&](const EchoKeys& known) -> std::optional<EchoSections> {
+    bool same_for_others = true;  // the text is the same in every folder beside this one
+    const auto seen = [&](const fs::path& file) {
+      fs::path from_folder = as_seen_from(folder, file);
+      same_for_others = same_for_others && from_folder.native().starts_with("../../");
+      return from_folder.string();
+    };
+    EchoSections made = echo_sections(Describe([copy = *job](Fields& f) mutable { describe(f, copy); }), seen, known);
+    return same_for_others ? std::optional(std::move(made)) : std::nullopt;
+  };
+  std::optional<std::string> text;
+  if (kind_of_name(folder) != FileKind::link) text = text_of(job, of_job, 1000, make);
+  return text ? *text : pipeline::stored_job_text(*job, folder);
 }
 
 std::vector<fs::path> PieceTexts::files_beside(const SharedJob& job) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/echo_text.h"
 
 namespace dresslife::pipeline {
 
@@ -84,11 +86,10 @@ class PieceTexts {
   using Sections = std::vector<Section>;
   static const Sections of_sim, of_job, whole;
 
-  /// Returns the text from its kept sections; std::nullopt if one is not known.
-  std::optional<std::string> known(const SharedJob& job, const Sections& sections, std::size_t text,
-                                   const PieceNumbers& numbers) const;
-  void keep(const SharedJob& job, const Sections& sections, std::size_t text, const PieceNumbers& numbers,
-            const std::vector<std::pair<std::string, std::string>>& made);
+  /// Returns the text from its kept sections and those that `make` returns, without the groups with these keys.
+  /// std::nullopt: the job has no pieces, or `make` returned nothing, because other jobs have another text.
+  std::optional<std::string> text_of(const SharedJob& job, const Sections& sections, std::size_t text,
+                                     const std::function<std::optional<EchoSections>(const EchoKeys&)>& make);
 
   /// (index of the section in a text, numbers of the pieces on which it depends)
   std::map<std::pair<std::size_t, PieceNumbers>, std::string> sections_;

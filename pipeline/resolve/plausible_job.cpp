@@ -9,7 +9,6 @@
 #include <optional>
 #include <regex>
 #include <sstream>
-#include <unordered_map>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
@@ -22,7 +21,6 @@
 #include "pipeline/job/line_key.h"
 #include "pipeline/job/parts_room.h"
 #include "pipeline/resolve/radians.h"
-#include "pipeline/settings/echo_text.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -984,18 +982,6 @@ void doubt_order_of_quaternions(const Motion& motion, const WarningsOfKind& add)
     }
 }
 
-/// Returns radians_in(echo_fields(map), path). Keeps the results of this thread by digests of the maps, because many jobs of a study
-/// have one robot.
-template <class T>
-std::vector<Warning> radians_of(T map, const std::string& path) {
-  constexpr std::size_t most_kept = 10'000;
-  thread_local std::unordered_map<std::string, std::vector<Warning>> known;
-  if (known.size() > most_kept) known.clear();
-  const auto [warnings, is_new] = known.try_emplace(path + echo_digest(Describe([&](Fields& f) { describe(f, map); })));
-  if (is_new) warnings->second = radians_in(echo_fields(std::move(map)), path);
-  return warnings->second;
-}
-
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
   const WarningsOfKind doubt(warnings, WarningKind::motion), periodic(warnings, WarningKind::periodic);
@@ -1006,10 +992,10 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   doubt_boxes(job.cell, job.robot, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)
     doubt_routing(mounted.routing, mounted.dresspack, job.robot, job.simulation.segments, doubt);
-  warnings = joined(std::move(warnings), radians_of(job.robot, "robot"));
-  warnings = joined(std::move(warnings), radians_of(job.cell, "cell"));
+  warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
+  warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
   for (const MountedDresspack& mounted : job.dresspacks) {
-    warnings = joined(std::move(warnings), radians_of(mounted.routing, "routing"));
+    warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.routing), "routing"));
   }
   periodic.number({}, "simulation.most_repeats", "", job.simulation.most_repeats, {0, repeats_to_steady}, {},
                   {"the repeats in the dresspack's life: the life is extrapolated from one repeat",

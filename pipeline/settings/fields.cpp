@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <unordered_map>
 
-#include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
@@ -433,7 +431,7 @@ class FieldEcho final : public Fields {
  public:
   Node finish() { return std::move(levels_.front()); }
   /// omitted: groups of the root that are left out.
-  explicit FieldEcho(const PathText& path_text, std::set<std::string, std::less<>> omitted = {})
+  explicit FieldEcho(const PathText& path_text, EchoKeys omitted = {})
       : path_text_(path_text), omitted_(std::move(omitted)) {
     open("", Node::Kind::map);
   }
@@ -523,84 +521,9 @@ class FieldEcho final : public Fields {
   }
 
   const PathText& path_text_;
-  std::set<std::string, std::less<>> omitted_;
+  EchoKeys omitted_;
   std::vector<Node> levels_;       ///< open maps and lists, outermost first
   std::vector<std::string> keys_;  ///< key of each open map or list in the map around it
-};
-// ---- digest -----------------------------------------------------------------------------------------------
-
-/// Collects everything that determines what a FieldEcho writes.
-class FieldBytes final : public Fields {
- public:
-  struct Section {
-    std::string key, bytes;
-  };
-  std::vector<Section> sections;  ///< of the root, in the order of their description
-
-  explicit FieldBytes(const PathText& path_text) : path_text_(path_text) {}
-
-  void text(Key key, std::string& value, Need, std::string_view) override { put(key, value); }
-  void number(Key key, double& value, Need, Range, std::string_view) override { put(key, as_bytes(value)); }
-  void maybe_number(Key key, std::optional<double>& value, Range, std::string_view) override {
-    put(key, value ? as_bytes(*value) : "");
-  }
-  void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need, Range,
-                      std::string_view) override {
-    put(key, by_word ? word : as_bytes(value));
-    put(key, by_word ? "word" : "number");
-  }
-  void integer(Key key, int& value, Need, Range, std::string_view) override { put(key, as_bytes(value)); }
-  void boolean(Key key, bool& value, Need, std::string_view) override { put(key, as_bytes(value)); }
-  void vector(Key key, Eigen::Vector3d& value, Need, std::string_view) override {
-    put(key, {reinterpret_cast<const char*>(value.data()), sizeof(double) * 3});
-  }
-  void numbers(Key key, std::vector<double>& values, Need, std::string_view) override {
-    put(key, {reinterpret_cast<const char*>(values.data()), sizeof(double) * values.size()});
-  }
-  void path(Key key, std::filesystem::path& value, Need, std::string_view) override {
-    put(key, path_text_ && !value.empty() ? path_text_(value) : value.string());
-  }
-  void place(Where&) override {}
-  void place_of(Key, Where&) override {}
-
- protected:
-  void choose(Key key, int& index, const Words& words, std::string_view) override { put(key, words[index]); }
-  void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view) override {
-    put(key, as_bytes(indices.size()));
-    for (const int index : indices) put(key, words[index]);
-  }
-  bool enter(Key key, Need, bool present, std::string_view, const char*) override {
-    put(key, present ? "map" : "");
-    depth_ += present;
-    return present;
-  }
-  void leave() override { end(); }
-  std::size_t enter_list(Key key, std::size_t count, Need, std::string_view, const char*) override {
-    put(key, as_bytes(count));
-    ++depth_;
-    return count;
-  }
-  void enter_item(std::size_t) override { ++depth_; }
-  void leave_list() override { end(); }
-
- private:
-  template <class T>
-  static std::string_view as_bytes(const T& value) {
-    return {reinterpret_cast<const char*>(&value), sizeof value};
-  }
-  /// The lengths tell where a key and a value end.
-  void put(Key key, std::string_view value) {
-    if (depth_ == 0 && (sections.empty() || sections.back().key != key)) sections.push_back({std::string(key), {}});
-    std::string& bytes = sections.back().bytes;
-    for (const std::string_view part : {key, value}) bytes.append(as_bytes(part.size())).append(part);
-  }
-  void end() {
-    --depth_;
-    sections.back().bytes += '}';
-  }
-
-  const PathText& path_text_;
-  int depth_ = 0;
 };
 // ---- manual -----------------------------------------------------------------------------------------------
 
@@ -748,50 +671,21 @@ Node echo_fields(const Describe& described, const PathText& path_text) {
   return echo.finish();
 }
 
-EchoSections echo_sections(const Describe& described, const PathText& path_text) {
-  constexpr std::size_t most_kept = 32 << 20;  // bytes; a robot with a long program has 0.1 MB
-  thread_local std::unordered_map<std::string, std::string> known;
-  thread_local std::size_t kept = 0;
-  if (kept > most_kept) known.clear(), kept = 0;
-  FieldBytes bytes(path_text);
-  described(bytes);
-  std::set<std::string, std::less<>> omitted;
-  for (FieldBytes::Section& section : bytes.sections) {
-    section.bytes = xxh3(section.bytes);
-    if (known.contains(section.bytes)) omitted.insert(section.key);
-  }
-  if (omitted.size() < bytes.sections.size()) {
-    FieldEcho echo(path_text, omitted);
-    described(echo);
-    Node whole = echo.finish();
-    for (const auto& [key, digest] : bytes.sections) {
-      if (omitted.contains(key)) continue;
-      Node alone;
-      if (Node* const written = whole.find(key)) alone[key] = std::move(*written);
-      kept += (known[digest] = alone.entries.empty() ? "" : to_yaml(alone)).size();
-    }
-  }
-  return mapped(bytes.sections,
-                [](const FieldBytes::Section& section) { return std::pair(section.key, known[section.bytes]); });
+EchoSections echo_sections(const Describe& described, const PathText& path_text, const EchoKeys& omitted) {
+  FieldEcho echo(path_text, omitted);
+  described(echo);
+  Node whole = echo.finish();
+  return mapped(whole.entries, [](Entry& entry) {
+    Node alone;
+    alone[entry.key] = std::move(entry.value);
+    return std::pair(entry.key, to_yaml(alone));
+  });
 }
 
 std::string joined_text(const EchoSections& sections) {
   std::string text;
   for (const auto& [key, section] : sections) text += section;
   return text.empty() ? "{}\n" : text;
-}
-
-std::string echo_digest(const Describe& described) {
-  const PathText whole_paths;
-  FieldBytes bytes(whole_paths);
-  described(bytes);
-  std::string all;
-  for (const auto& [key, value] : bytes.sections) all += key + '\n' + value;
-  return xxh3(all);
-}
-
-std::string echo_text(const Describe& described, const PathText& path_text) {
-  return joined_text(echo_sections(described, path_text));
 }
 
 std::vector<KeyRow> key_rows(const std::string& title, const Describe& described) {

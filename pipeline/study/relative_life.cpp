@@ -16,7 +16,6 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/job_text.h"
-#include "pipeline/settings/echo_text.h"
 #include "pipeline/study/rate.h"
 
 namespace dresslife::pipeline {
@@ -36,7 +35,7 @@ class CableStudyMaker {
  public:
   void add(const StudyJob& job) {
     const std::size_t first = made_.cables.size(), rigs = made_.rigs.jobs.size();
-    const auto [same, is_new] = known_cables_.try_emplace(settings_of(*job.job));
+    const auto [same, is_new] = known_cables_.try_emplace(settings_of(job.job));
     if (!is_new) {
       made_.cables.insert(made_.cables.end(), same->second.begin(), same->second.end());
       for (std::size_t k = first; k < made_.cables.size(); ++k) made_.cables[k].job = job.name;
@@ -53,15 +52,15 @@ class CableStudyMaker {
 
  private:
   /// Returns a digest of everything in a job from which its rigs follow. Most jobs of a study have those of a few.
-  static std::string settings_of(Job job) {
+  static std::string settings_of(const SharedJob& shared) {
+    if (const std::size_t rest = shared.numbers()[index_of(Piece::rest)]) return std::to_string(rest);
+    Job job = *shared;
     for (MountedDresspack& mounted : job.dresspacks) mounted.routing = {};
-    return xxh3(echo_text(
-        [&](Fields& f) {
-          f.list("dresspacks", job.dresspacks, Need::required, "");
-          f.group("strain", job.strain, Need::optional, "");
-          f.group("fatigue", job.fatigue, Need::optional, "");
-        },
-        {}));
+    return xxh3(to_yaml(echo_fields(Describe([&](Fields& f) {
+      f.list("dresspacks", job.dresspacks, Need::required, "");
+      f.group("strain", job.strain, Need::optional, "");
+      f.group("fatigue", job.fatigue, Need::optional, "");
+    }))));
   }
 
   void add_new(const StudyJob& job) {
