@@ -238,7 +238,10 @@ int main(int argc, char** argv) {
       .program = "dresslife-import",
       .purpose =
           "Reads a robot program (RAPID, KRL, Fanuc, INFORM, URScript, joint columns, ROS), or the folder of a "
-          "controller's backup, and writes its motion as YAML. A log of joint angles becomes a study and a duty (--log).",
+          "controller's backup, and writes its motion as YAML. A log of joint angles becomes a study and a duty (--log). "
+          "Messages name keys of a job, which options give, too: motion.values by --value, motion.assume by --assume, "
+          "motion.modules by --module, motion.tools and motion.work_objects by --frames, motion.routine by --routine, "
+          "motion.passes by --passes.",
       .input = "PROGRAM or FOLDER; with --ways JOB.yaml; with --log LOG.csv",
       .output = "motion.yaml; with --ways ways.h5; with --log DUTY.yaml",
       .example = "dresslife-import config/programs/side_panel.mod -o motion.yaml",

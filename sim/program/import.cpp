@@ -15,7 +15,6 @@
 #include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/request.h"
 #include "sim/program/interpreter/tokens.h"
-#include "sim/program/job_words.h"
 #include "sim/program/krl/krl.h"
 #include "sim/program/rapid/rapid.h"
 #include "sim/program/rapid/types.h"
@@ -169,13 +168,14 @@ void report_nothing(const Program& program, const ImportOptions& options, Proble
         left_out += fmt::format("{}{} ({}:{})", left_out.empty() ? "" : ", ", skipped.what,
                                 std::filesystem::path(skipped.where.file).filename().string(), skipped.where.line);
   const std::string routine = options.routine.empty() ? "the routine that it starts with" : "'" + options.routine + "'";
-  problems.add(program.start.file.empty() ? pipeline::Where{program.name} : program.start,
-               fmt::format("moves the robot nowhere: {} runs to its end{}", routine,
-                           left_out.empty() ? ""
-                                            : fmt::format("; {} lines were left out: {}{}", listed, left_out,
-                                                          listed > listed_reasons ? ", ..." : "")),
-               "name the routine that moves it with --routine, or give what it asks for with --value, --assume or "
-               "--module");
+  problems.add(
+      program.start.file.empty() ? pipeline::Where{program.name} : program.start,
+      fmt::format("moves the robot nowhere: {} runs to its end{}", routine,
+                  left_out.empty() ? ""
+                                   : fmt::format("; {} lines were left out: {}{}", listed, left_out,
+                                                 listed > listed_reasons ? ", ..." : "")),
+      "name the routine that moves it in motion.routine, or give what it asks for with motion.values, motion.assume "
+      "or motion.modules");
 }
 
 /// Notes external axes that move, and the data that the job's robot needs for them: programs only give positions.
@@ -402,7 +402,7 @@ std::vector<std::string> assumed_of(const Program& program, const pipeline::Moti
       assumed.push_back(fmt::format("{}: {}",
                                     std::filesystem::path(skipped.where.file).filename().string() +
                                         (skipped.where.line > 0 ? fmt::format(":{}", skipped.where.line) : ""),
-                                    in_words_of_a_job(skipped.what.substr(std::string_view("note: ").size()))));
+                                    skipped.what.substr(std::string_view("note: ").size())));
   const auto welds = std::ranges::count_if(program.instructions, [&](const Instruction& instruction) {
     const std::string line = lower_case(
         instruction.text.substr(std::min(instruction.text.find_first_not_of(" \t"), instruction.text.size())));
@@ -420,14 +420,8 @@ std::vector<std::string> assumed_of(const Program& program, const pipeline::Moti
 
 RunMotion run_motion_of(const pipeline::Motion& motion, const FlangeAt& flange) {
   if (motion.program.empty()) return {motion, ""};
-  try {
-    const Program program = read_program(motion, flange);
-    RunMotion run{motion_of(program, motion), waits_note(program), assumed_of(program, motion)};
-    for (pipeline::Warning& warning : run.motion.left_out) warning.words = in_words_of_a_job(warning.words);
-    return run;
-  } catch (const pipeline::InputError& error) {
-    throw pipeline::InputError(in_words_of_a_job(error.what()));
-  }
+  const Program program = read_program(motion, flange);
+  return {motion_of(program, motion), waits_note(program), assumed_of(program, motion)};
 }
 
 namespace {
@@ -525,11 +519,11 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
     const std::string without_skipped = what.substr(what.find(": ") + 2);
     const auto doubt =
         std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
-    if (what.find("--value") != std::string::npos) {  // the text contains the remedy
+    if (what.find("motion.values") != std::string::npos) {  // the text contains the remedy
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
     } else if (what.find(later_passes_differ) != std::string::npos) {
       warn(without_skipped, "a counter, or an order, that decides in a later pass",
-           "motion.passes: N in the job (--passes N), with the number of passes of one cycle of the cell");
+           "motion.passes: N, with the number of passes of one cycle of the cell");
     } else if (group.reason.starts_with(unread_word)) {
       const std::size_t nearest = group.reason.find(nearest_known);
       const std::string word =

@@ -9,6 +9,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/axis_names.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -148,8 +149,8 @@ class Columns {
     const auto order = order_of_axes(axes, wanted);
     if (!order)
       return refuse(fmt::format("names axes without their order ({})", pipeline::joined(axes, ", ")),
-                    "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
-                    "the robot's axes");
+                    "number them in their names (joint_1 ...), or give motion.values: [{name: joints, value: "
+                    "'NAME,NAME,...'}] in the order of the robot's axes");
     for (std::size_t axis : *order) axes_.push_back(at[axis]);
     for (const std::string& name : left_out_)
       program_.skipped.push_back({where(), fmt::format("column '{}': no angle of an axis", name)});
@@ -211,7 +212,8 @@ class Columns {
       return problems_.add_use(
           {.where = {file_.name(), number_, 1},
            .what = "gives angles without a unit (none is too large for radians)",
-           .remedy = "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad",
+           .remedy =
+               "end the names in deg or rad (joint_1_rad), or give motion.values: [{name: unit, value: deg}] or value: rad",
            .about = "unit",
            .questions = {{Question::Kind::value, "unit", "deg or rad"}}});
     }
@@ -337,7 +339,7 @@ const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& d
     return found[static_cast<std::size_t>(*answered) - 1];
   else if (found.size() > 1)
     problems.add(found[1]->where, fmt::format("is one of {} trajectories in the file", found.size()),
-                 fmt::format("choose with --value trajectory=1 .. {}", found.size()));
+                 fmt::format("choose with {} .. value: {}", values_of_job({"trajectory"}, "1"), found.size()));
   else
     return found[0];
   return nullptr;
@@ -361,7 +363,7 @@ void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, P
   if (!order)
     return problems.add(
         names->where, fmt::format("names joints without their order on the robot ({})", pipeline::joined(joints, ", ")),
-        "give --value joints=NAME,NAME,... in the order of the robot's axes");
+        "give motion.values: [{name: joints, value: 'NAME,NAME,...'}] in the order of the robot's axes");
   Rows rows(program, problems);
   for (const Node& point : points->items)
     if (!read_point(point, *order, joints.size(), rows, problems)) return;

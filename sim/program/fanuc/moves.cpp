@@ -4,11 +4,13 @@
 
 #include "pipeline/base/constants.h"
 #include "sim/program/fanuc/run.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 namespace {
 
+constexpr const char* some_pose = "X ... Y ... Z ... W ... P ... R ...";
 constexpr const char* position_form =
     "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
 
@@ -84,7 +86,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   if (registered) doubt(*number);
   if (read && read->known() && read->form == FanucPosition::Form::unknown) {
     complain(fmt::format("moves to {}, and its numbers can be a pose or joint angles", name),
-             fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name, name));
+             fmt::format("give {} or value: 'J1 ... J2 ...'", values_of_job({name}, some_pose)));
     return {};
   }
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
@@ -94,9 +96,9 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   }
   missing(fmt::format("{} of {}", name, routine().listing->name),
           fmt::format("moves to {}, which is not {}", name, read ? "taught" : "listed"),
-          fmt::format("{}, or give --value '{}=X ... Y ... Z ... W ... P ... R ...'",
+          fmt::format("{}, or give {}",
                       read ? "list the program again behind teaching it" : "list the program with its positions (/POS)",
-                      own_name),
+                      values_of_job({own_name}, some_pose)),
           {{Question::Kind::value, own_name, position_form}});
   return {};
 }
@@ -110,9 +112,7 @@ void FanucRun::missing_position(int number, const char* what) {
   if (causes.size() != 1 || causes[0].name != name)
     return missing_value(fmt::format("{} {}, which depends on", what, name));
   missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
-          fmt::format("give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
-                      "(motion.values)",
-                      name),
+          fmt::format("give posreg.va of the backup ({}), or {}", modules_of_job, values_of_job({name}, some_pose)),
           {{Question::Kind::value, name, position_form}});
 }
 
@@ -130,13 +130,11 @@ bool FanucRun::active(bool tool, int& number) {
   const bool by_number = !(tool ? around_.variables.tools : around_.variables.frames).empty();
   const Question by_its_number{Question::Kind::value, written, "a number"},
       frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
-  missing(
-      written,
-      fmt::format("moves in the active {}, and no line chooses it ({})", tool ? "tool" : "user frame", written),
-      fmt::format("give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
-                  "sysframe.va of the backup",
-                  written, tool ? "tools" : "work_objects", list),
-      {by_number ? by_its_number : frame});
+  missing(written,
+          fmt::format("moves in the active {}, and no line chooses it ({})", tool ? "tool" : "user frame", written),
+          fmt::format("give it with {}, its frame in motion.{} with the name '{}', or sysframe.va of the backup",
+                      values_of_job({written}, "1"), tool ? "tools" : "work_objects", list),
+          {by_number ? by_its_number : frame});
   return false;
 }
 
@@ -187,13 +185,11 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
     made.frame = frame_of_fanuc(found->second.values);
     return made;
   }
-  missing(
-      made.name, fmt::format("uses {}, which lies in the controller", made.name),
-      fmt::format(
-          "give it in motion.{} (--frames of dresslife import) with the name '{}': [{{name: '{}', position_mm: [X, Y, Z], "
-          "wpr_deg: [W, P, R]}}], or sysframe.va of the backup",
-          tool ? "tools" : "work_objects", made.name, made.name),
-      {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
+  missing(made.name, fmt::format("uses {}, which lies in the controller", made.name),
+          fmt::format("give it in motion.{} with the name '{}': [{{name: '{}', position_mm: [X, Y, Z], "
+                      "wpr_deg: [W, P, R]}}], or sysframe.va of the backup",
+                      tool ? "tools" : "work_objects", made.name, made.name),
+          {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
   return {};
 }
 
@@ -280,7 +276,7 @@ std::optional<double> FanucRun::override_share() {
     const auto percent = values_.override_percent(name);
     if (!percent || !(*percent > 0) || *percent > 100) {
       missing(written, fmt::format("moves under an {} that is known only while the robot runs", written),
-              fmt::format("give it with --value '{}=100' (motion.values)", written),
+              "give it with " + values_of_job({written}, "100"),
               {{Question::Kind::value, written, "a number in %", "100"}});
       return {};
     }
@@ -298,7 +294,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     const auto given = values_.given("weld_speed");
     if (!given) {
       missing("WELD_SPEED", "moves with WELD_SPEED, which lies in the controller's weld schedule",
-              "give it with --value 'WELD_SPEED=8mm/sec' (motion.values)",
+              "give it with " + values_of_job({"WELD_SPEED"}, "8mm/sec"),
               {{Question::Kind::value, "WELD_SPEED", "a speed with its unit: 8mm/sec"}});
       return false;
     }
@@ -307,8 +303,8 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   FanucCursor written(text);
   const FanucNumber speed = weld ? written.number() : values_.value(written);
   const auto wrong_value = [&](const char* what) {  // the cause is the user's value, not the line
-    return refuse(fmt::format("moves with WELD_SPEED, whose value '{}' in motion.values (--value) {}", text, what),
-                  "write it with its unit: WELD_SPEED=8mm/sec");
+    return refuse(fmt::format("moves with WELD_SPEED, whose value '{}' in motion.values {}", text, what),
+                  "write it with its unit: 8mm/sec");
   };
   if (weld && !speed) return wrong_value("is no number");
   const auto share = override_share();
@@ -397,8 +393,7 @@ void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& i
   into = values_.given_position(name);
   if (!into)
     missing(name, fmt::format("is offset by what a camera finds ({})", name),
-            fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
-            {{Question::Kind::value, name, position_form}});
+            "give it with " + values_of_job({name}, some_pose), {{Question::Kind::value, name, position_form}});
 }
 
 /// Returns whether the condition of SKIP CONDITION becomes true before a move ends. If it does, Skip continues with the
@@ -409,12 +404,12 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   std::optional<bool> comes = assumed(where().line);
   if (!comes && !skip_condition_.empty()) comes = values_.condition(at);
   if (!comes && jumps) {
-    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, "then or =else") == 0;
+    comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, then_or_else) == 0;
   } else if (!comes) {
     note(fmt::format(
-             "SKIP: the condition comes at the end of the move, and the program continues with the next line (--assume "
-             "{}=else: it does not come)",
-             line_name()),
+             "SKIP: the condition comes at the end of the move, and the program continues with the next line ({}: it "
+             "does not come)",
+             assume_of_job(line_name(), "else")),
          true);
     return true;
   }

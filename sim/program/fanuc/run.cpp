@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/base/joined.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -94,8 +95,6 @@ void FanucRun::missing(const std::string& name, const std::string& what, const s
 
 namespace {
 
-constexpr const char* then_or_else = "then or =else";
-
 std::string form_of(const std::string& name) {
   if (name.starts_with("PR[") && name.find(',') == std::string::npos)
     return "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
@@ -115,10 +114,10 @@ std::string names_in(const FanucCauses& causes) {
 }
 
 std::string options_for(const FanucCauses& causes) {
-  std::string options;
+  std::vector<std::string> names;
   for (const FanucCause& cause : causes)
-    if (!cause.name.empty()) options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
-  return options;
+    if (!cause.name.empty()) names.push_back(cause.name);
+  return values_of_job(names);
 }
 
 }  // namespace
@@ -146,7 +145,7 @@ void FanucRun::missing_value(const std::string& what) {
     return missing("a value", fmt::format("{} a value, which is known only while the robot runs", what),
                    "write it as a constant", {});
   missing(names, fmt::format("{} {}, which is known only while the robot runs", what, names),
-          fmt::format("give it with {} (motion.values){}", options_for(causes),
+          fmt::format("give it with {}{}", options_for(causes),
                       name.starts_with("PR")   ? ", or posreg.va of the backup"
                       : name.starts_with("R[") ? ", or numreg.va of the backup"
                                                : ""),
@@ -164,12 +163,12 @@ void FanucRun::charge(long steps) {
   if (exploration_.guessing() && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ + values_.charged() <= ImportLimits::executed) return;
   const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
-  const std::string end = last_decision_.line > 0 ? fmt::format("--assume {}:{}=then or =else",
-                                                                file_of(last_decision_.file), last_decision_.line)
-                                                  : "a statement that leaves it";
+  const std::string end = last_decision_.line > 0
+                              ? assume_of_job(fmt::format("{}:{}", file_of(last_decision_.file), last_decision_.line))
+                              : "a statement that leaves it";
   if (!exploration_.guessing())
     problems_.add(at, fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
-                  fmt::format("decide what ends the loop: {}, or --value with what it depends on", end));
+                  fmt::format("decide what ends the loop: {}, or motion.values with what it depends on", end));
   throw Stop{};
 }
 
@@ -240,7 +239,7 @@ void FanucRun::call_statement(const std::string& text, bool beside) {
 /// Applies the effects of a program without a file. The position of the robot is unknown afterwards.
 void FanucRun::unread(const std::string& what) {
   if (values_.take_effect(what))
-    note(what + ": not among the files read; its registers are as --value says", true);
+    note(what + ": not among the files read; its registers are as motion.values says", true);
   else
     note(what + ": not among the files read; registers may be others behind it", true);
   last_.reset();
@@ -443,7 +442,7 @@ bool FanucRun::goes_on(std::size_t label) {
   if (kept > 0) return false;
   if (last)
     complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
-             "say how many are wanted: --passes N (motion.passes)");
+             "say how many are wanted: motion.passes: N");
   return !last;
 }
 
@@ -637,7 +636,7 @@ int FanucRun::ask(const std::string& what, int ways, const std::string& answers)
     questions = {{Question::Kind::branch, line_name(), answers == then_or_else ? "then or else" : answers}};
   missing(names.empty() ? line_name() : names,
           fmt::format("{} {} is known only while the robot runs", what, names.empty() ? "what" : names + ", which"),
-          fmt::format("choose with --assume {}={} (motion.assume in a job){}", line_name(), answers,
+          fmt::format("choose with {}{}", assume_of_job(line_name(), answers),
                       names.empty() ? "" : fmt::format(", or give {}", options_for(causes))),
           questions, true);
   return guess(ways);

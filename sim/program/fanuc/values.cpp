@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -89,13 +90,13 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
     if (const auto position = position_in(text))
       positions_[index] = *position, taught_.insert(index);
     else
-      problems.add({"--value " + name + "=" + text}, "is no position",
+      problems.add({values_of_job({name}, text)}, "is no position",
                    "write 'X 100 Y 0 Z 50 W 180 P 0 R 0' [mm, deg] or 'J1 0 J2 10 ...' [deg]");
   } else if (word == "r" && number) {
     if (const auto value = number_in(text))
       registers_[index].value = value;
     else
-      problems.add({"--value " + name + "=" + text}, "is no number", "write for example R[5]=3");
+      problems.add({values_of_job({name}, text)}, "is no number", "write for example R[5]=3");
   } else if (named_.contains(name)) {
     named_.erase(name);
   }

@@ -9,6 +9,7 @@
 #include "pipeline/base/constants.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/arc.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -188,8 +189,8 @@ class Inform final : public Dialect {
     for (const NamedFrame& given : tool ? tools_ : frames_)
       if (same_word(given.name, name)) return given;
     ask(name, place, fmt::format("moves {} {}, which no file read holds", tool ? "with" : "in", name),
-        fmt::format("give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
-                    tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
+        fmt::format("give {} of the backup ({}), or motion.{} with the name '{}'", tool ? "TOOL.CND" : "UFRAME.CND",
+                    modules_of_job, tool ? "tools" : "work_objects", name),
         "", tool ? Question::Kind::tool : Question::Kind::work_object);
     return {};
   }
@@ -277,7 +278,7 @@ class Inform final : public Dialect {
     if (read.size() >= 4) return read;
     ask("pulses_per_degree", place,
         "moves to a position in pulses, and no file contains the pulses per degree of each axis",
-        "give --value 'pulses_per_degree=[S,L,U,R,B,T]' (motion.values), counts with their signs: two positions of "
+        "give motion.values: [{name: pulses_per_degree, value: '[S,L,U,R,B,T]'}], counts with their signs: two positions of "
         "the pendant, shown once in pulses and once in degrees, give them",
         "[S, L, U, R, B, T], counts of a degree with their signs");
     return {};
@@ -320,11 +321,12 @@ class Inform final : public Dialect {
       flip_reported_ = true;
       constexpr std::array<const char*, 2> meanings{"axis R within 90 deg of its zero, as on an NX100",
                                                     "the sign of axis B, as on a YRC1000"};
-      constexpr std::array<const char*, 2> answers{"R", "B"};
+      constexpr std::array<const char*, 2> answers{"\"R\"", "\"B\""};
       run_->note(place,
-                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ. If so, --value "
-                             "'rconf_flip=\"{}\"' confirms it; if it is {}, give --value 'rconf_flip=\"{}\"'",
-                             meanings[by_b], answers[by_b], meanings[!by_b], answers[!by_b]),
+                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ. If so, {} "
+                             "confirms it; if it is {}, give {}",
+                             meanings[by_b], values_of_job({"rconf_flip"}, answers[by_b]), meanings[!by_b],
+                             values_of_job({"rconf_flip"}, answers[!by_b])),
                  true);
     }
     return made;
@@ -333,9 +335,11 @@ class Inform final : public Dialect {
   std::optional<Position> position(const Expression& written) {
     const Value value = run_->answered(written);
     if (auto read = position_in(value)) return read;
-    run_->ask_for(value, written.place,
-                  fmt::format("moves to {}, which is known only while the robot runs", upper_case(written.text)),
-                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)", position_form);
+    run_->ask_for(
+        value, written.place,
+        fmt::format("moves to {}, which is known only while the robot runs", upper_case(written.text)),
+        "give VAR.DAT of the backup (motion.modules: [{file: FILE}]), or the job that holds its value (///NPOS)",
+        position_form);
     for (const int tool : tools_of_jobs()) frame(true, tool, written.place);  // asks for the tool in the same round
     return {};
   }
@@ -475,7 +479,7 @@ class Inform final : public Dialect {
       if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
       if (!number)
         return ask(option, statement.place, fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
-                   fmt::format("give --value {}=NUMBER (motion.values), {}", option, axes ? "in %" : "in mm/s"),
+                   fmt::format("give {}, {}", values_of_job({option}, "NUMBER"), axes ? "in %" : "in mm/s"),
                    axes ? "a number, in %" : "a number, in mm/s"),
                false;
     }
@@ -491,8 +495,8 @@ class Inform final : public Dialect {
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
     if (!given && !unit_reported_)
-      run_->note(place, std::string(unit_of_speeds) +
-                            "; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
+      run_->note(place, std::string(unit_of_speeds) + "; where the controller counts cm/min give " +
+                            values_of_job({"speed_unit"}, "\"cm/min\""));
     unit_reported_ = true;
     if (!given || given->text == "mm/s") return millimetre;
     if (given->text == "cm/min") return 10 * millimetre / 60;
@@ -617,8 +621,8 @@ class Inform final : public Dialect {
   void start_beside(const Statement& statement) {
     const std::string job = statement.arguments.empty() ? "" : statement.arguments[0].text;
     run_->note(statement.place,
-               fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone", statement.text,
-                           job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
+               fmt::format("{}: runs beside this job, and is left out; motion.routine: {} reads it alone",
+                           statement.text, job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
                true);
     run_->forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/program/interpreter/interpreter.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -126,18 +127,18 @@ int Interpreter::ask(const Place& place, const std::string& what, const Value& u
                      int ways, bool by_value, const std::string& form) {
   const std::string line = short_place(place);
   const std::vector<const Cause*> causes = unknown.causes();
-  std::string values;
+  std::vector<std::string> names;
   for (const Cause* cause : causes)
-    if (!cause->asked().empty()) values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", cause->asked());
+    if (!cause->asked().empty()) names.push_back(cause->asked());
+  std::string values = names.empty() ? "" : values_of_job(names);
   const std::string about = values.empty() ? where(place).text() : answers + values;
   for (const Cause* cause : causes)
-    if (cause->behind) values += fmt::format(", or --assume {}=then or =else", cause->line);
+    if (cause->behind) values += ", or " + assume_of_job(cause->line);
   std::vector<Question> questions = questions_for(unknown, form);
   if (questions.empty() || (questions.size() > 1 && ways == 2) || !by_value)
     questions = {{Question::Kind::branch, line, ways == 2 ? "then or else" : form.empty() ? answers : form}};
   miss(about, place, what + because(unknown),
-       fmt::format("choose with --assume {}={} (motion.assume in a job){}", line, answers,
-                   values.empty() ? "" : fmt::format(", or give {} (motion.values)", values)),
+       fmt::format("choose with {}{}", assume_of_job(line, answers), values.empty() ? "" : ", or give " + values),
        std::move(questions), true);
   return guess(place, ways);
 }
@@ -168,11 +169,10 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
       const Cause* cause = condition.first_cause();
-      decision =
-          problem_count() != problems  // the cause is reported already
-              ? guess(branch.place, 2) == 0
-              : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
-                    "then or =else", 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
+      decision = problem_count() != problems  // the cause is reported already
+                     ? guess(branch.place, 2) == 0
+                     : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
+                           then_or_else, 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
     if (!*decision) continue;
     if (is_known) take_arm(statement, static_cast<std::size_t>(&branch - statement.branches.data()));

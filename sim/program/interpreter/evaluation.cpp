@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/program/interpreter/interpreter.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/request.h"
 
 namespace dresslife::sim {
@@ -133,7 +134,7 @@ void Interpreter::index_data() {
     if (holders.size() > 1)
       complain(code_.values.at(name).place,
                fmt::format("is a name that {} modules have each for themselves", holders.size()),
-               fmt::format("write --value MODULE:{}=...", name));
+               "write " + values_of_job({"MODULE:" + name}));
   count_holders();
 }
 
@@ -223,7 +224,7 @@ std::optional<Value> Interpreter::given_for(const Datum& datum) {
     if (!shape(*value, type))
       complain(statement.place,
                fmt::format("is given a value that has not the {} components of a {}", type->fields.size(), type->name),
-               fmt::format("write all of them in --value {}=...", statement.name));
+               "write all of them in " + values_of_job({statement.name}));
   return value;
 }
 
@@ -259,7 +260,7 @@ std::optional<Value> Interpreter::given(const std::string& name) {
   if (found->first != unique && first != unique)
     miss("shared " + name, found->second.place,
          fmt::format("is a name that {} and {} mean each for themselves", first, unique),
-         fmt::format("give each its own value: --value '{}=...' and --value '{}=...'", first, unique),
+         "give each its own value: " + values_of_job({first, unique}),
          {{Question::Kind::value, first, form_of(name)}, {Question::Kind::value, unique, form_of(name)}});
   return evaluate(found->second);
 }
@@ -619,13 +620,14 @@ std::string Interpreter::because(const Value& unknown) const {
 }
 
 std::string Interpreter::remedy_for(const Value& unknown) const {
-  std::string remedy;
+  std::vector<std::string> names;
+  std::string lines;
   for (const Cause* cause : unknown.causes()) {
     if (cause->asked().empty()) continue;
-    remedy += fmt::format("{}--value '{}=...'", remedy.empty() ? "" : ", ", cause->asked());
-    if (!cause->line.empty()) remedy += fmt::format(", or --assume {}=then or =else", cause->line);
+    names.push_back(cause->asked());
+    if (!cause->line.empty()) lines += ", or " + assume_of_job(cause->line);
   }
-  return remedy;
+  return names.empty() ? "" : values_of_job(names) + lines;
 }
 
 std::vector<Question> Interpreter::questions_for(const Value& unknown, const std::string& form) {

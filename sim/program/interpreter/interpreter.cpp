@@ -1,6 +1,7 @@
 // Execution of statements, notes and problems. Other members: branches.cpp, loops.cpp, calls.cpp, effects.cpp;
 // expressions: evaluation.cpp.
 #include "sim/program/interpreter/interpreter.h"
+#include "sim/program/interpreter/job_words.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -55,10 +56,10 @@ void Interpreter::run(const Routine& routine) {
   exploration_.spend(executed_);
   for (const auto& [line, assumption] : options_.assume)
     if (!used_assumptions_.contains(line))
-      note(routine.place, fmt::format("--assume {}: no branch on that line was to be decided", line), true);
+      note(routine.place, fmt::format("motion.assume of {}: no branch on that line was to be decided", line), true);
   for (const auto& [name, expression] : code_.values)
     if (!used_values_.contains(name))
-      note(expression.place, fmt::format("--value {}: nothing in the program asked for it", name), true);
+      note(expression.place, fmt::format("motion.values of {}: nothing in the program asked for it", name), true);
 }
 
 void Interpreter::start(const Routine& routine) {
@@ -74,7 +75,7 @@ void Interpreter::start(const Routine& routine) {
     for (const Parameter& parameter : routine.parameters)
       if (needed(parameter)) names += (names.empty() ? "" : ", ") + parameter.name;
     complain(routine.place, fmt::format("'{}' takes {} arguments: {}", routine.written, count, names),
-             fmt::format("give them: --routine '{}({})' with their values (motion.routine)", routine.written, names));
+             fmt::format("give them: motion.routine: '{}({})' with their values", routine.written, names));
     return;
   }
   started_ = &routine;
@@ -129,8 +130,7 @@ void Interpreter::ask_for(const Value& unknown, const Place& place, const std::s
   std::string names;
   for (const Question& question : questions) names += question.name + " ";
   miss(names, place, what + because(unknown),
-       fmt::format("{}{}give {} (motion.values)", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)),
-       questions);
+       fmt::format("{}{}give {}", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)), questions);
 }
 
 void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
@@ -163,7 +163,8 @@ void Interpreter::charge(std::size_t work) {
   const Place place = longest != loops_.end() ? longest->place : routines_.empty() ? Place{} : routines_.back()->place;
   miss(short_place(place), place,
        fmt::format("has run {} statements without an end (a loop that input would end?)", ImportLimits::executed),
-       fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else", short_place(place)),
+       fmt::format("take one pass of the loop with {}, or leave it out with take: else",
+                   assume_of_job(short_place(place), "then")),
        {{Question::Kind::branch, short_place(place), "then or else"}});
   throw Stop{};
 }

@@ -198,13 +198,13 @@ class Interpreter {
   /// Reports a missing value, once for all its uses. decision: the missing value is the arm of a branch.
   void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
             std::vector<Question> questions = {}, bool decision = false);
-  /// Asks the user for all causes of an unknown value. remedy: text before "--value ..."; form: the form of the
+  /// Asks the user for all causes of an unknown value. remedy: text before "motion.values: ..."; form: the form of the
   /// value's text.
   void ask_for(const Value& unknown, const Place& place, const std::string& what, const std::string& remedy,
                const std::string& form);
   /// Returns ": k is read by TPReadNum (m.mod:9)"; empty: the cause is not known.
   std::string because(const Value& unknown) const;
-  /// Returns the options that make the value known: "--value 'k=...' "; empty: none.
+  /// Returns the keys that make the value known: "motion.values: [{name: k, value: VALUE}]"; empty: none.
   std::string remedy_for(const Value& unknown) const;
   std::vector<Question> questions_for(const Value& unknown, const std::string& form);
   /// Returns the number of problems, including those that are dropped because they follow a guess.

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "sim/program/interpreter/interpreter.h"
+#include "sim/program/interpreter/job_words.h"
 
 namespace dresslife::sim {
 namespace {
@@ -151,7 +152,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
       return leave_out(statement, unknown);
     decision =
         ask(statement.place, "counts to a number that is known only while the robot runs (then: one pass, else: none)",
-            unknown, "then or =else", 2, true, "a number") == 0;
+            unknown, then_or_else, 2, true, "a number") == 0;
     if (!*decision) return end_unknown();
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
@@ -179,8 +180,8 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     if (!statement.keeps_counter || flow != Flow::next) continue;
     const Value counter = evaluate(name_at(statement.name, statement.place));  // the body may have changed it
     if (!counter.is_number()) {
-      ask(statement.place, "counts with a variable that is known only while the robot runs", counter, "then or =else",
-          2, true, "a number");
+      ask(statement.place, "counts with a variable that is known only while the robot runs", counter, then_or_else, 2,
+          true, "a number");
       break;
     }
     value = counter.number + by;
@@ -214,7 +215,7 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
         decision = ask(statement.place,
                        "repeats while a condition holds that is known only while the robot runs (then: one "
                        "pass, else: none)",
-                       go_on, "then or =else", 2, compares_known(condition), "") == 0;
+                       go_on, then_or_else, 2, compares_known(condition), "") == 0;
         if (!*decision) break;
       } else if (go_on.number == 0) {
         break;
@@ -293,8 +294,8 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     round.again();
     if (problems_.count() > problems || exploration_.guessing()) {  // the questions of further passes are needed, too
       if (passes.count() > 1 && !hinted)
-        problems_.hint(problems, fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
-                                             short_place(statement.place), passes.count() - 1));
+        problems_.hint(problems, fmt::format("in pass {} of the loop in {}: motion.passes: {} ends before",
+                                             passes.count(), short_place(statement.place), passes.count() - 1));
       hinted = true;
       const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
       if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
@@ -309,7 +310,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     const bool could_move = moves(statement, module_);
     note(statement.place,
          could_move ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
-                      "choose with --assume"
+                      "choose with motion.assume"
                     : "an endless loop: the lines after it never run",
          could_move);
     throw Stop{};
@@ -369,7 +370,7 @@ void Interpreter::run_cycles(const Routine& routine) {
     constexpr std::size_t few_moves = 2;  // fewer moves are not a cycle
     const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
     if (!asking && problems_.count() > before.count() && one_cycle && !passes.only_lines_of_the_first()) {
-      problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before", passes.count() + 1,
+      problems_.hint(before.count(), fmt::format("in pass {} of {}: motion.passes: {} ends before", passes.count() + 1,
                                                  routine.written, passes.count()));
       asking = true;
     }
@@ -403,7 +404,7 @@ void Interpreter::run_cycles(const Routine& routine) {
     if (const std::string shared = shared_and_written(); !shared.empty())
       note(routine.place,
            fmt::format("{} ends in passes without a move, and another task may write what has no value here "
-                       "({}): choose with --assume what it decides",
+                       "({}): choose with motion.assume what it decides",
                        routine.written, shared),
            true);
   const std::size_t kept = passes.kept(wanted);

@@ -53,14 +53,13 @@ std::string only_start(const fs::path& folder, std::vector<std::string> choices,
   constexpr std::size_t listed_programs = 20;
   if (choices.empty())
     throw pipeline::InputError({folder.string()}, fmt::format("holds no {} that moves the robot", what),
-                               "name the routine to run with --routine (motion.routine in a job)");
+                               "name the routine to run in motion.routine");
   if (choices.size() == 1) return choices[0];
   const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
   choices.resize(choices.size() - more);
-  throw pipeline::InputError(
-      {folder.string()}, "holds several programs, and none that calls them",
-      fmt::format("name one with --routine (motion.routine in a job): {}{}", pipeline::joined(choices, ", "),
-                  more ? fmt::format(" and {} more", more) : ""));
+  throw pipeline::InputError({folder.string()}, "holds several programs, and none that calls them",
+                             fmt::format("name one in motion.routine: {}{}", pipeline::joined(choices, ", "),
+                                         more ? fmt::format(" and {} more", more) : ""));
 }
 
 }  // namespace dresslife::sim

@@ -6,6 +6,7 @@
 
 #include "pipeline/base/joined.h"
 #include "sim/program/interpreter/arc.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/krl/dialect.h"
 #include "sim/program/krl/spline.h"
@@ -86,16 +87,14 @@ void Krl::ask_for_target(const Expression& written, const Value& value) {
   if (!path.empty()) questions = {{Question::Kind::value, answer, target_form}};
   if (is_unset(value)) {
     run_->miss(answer.empty() ? name : answer, written.place, fmt::format("moves to {}, which has no value yet", name),
-               fmt::format("assign it before the move, give the file that holds its value (.dat), or --value "
-                           "'{}={{X ...}}'",
-                           path.empty() ? "NAME" : answer),
+               "assign it before the move, give the file that holds its value (.dat), or " +
+                   values_of_job({path.empty() ? "NAME" : answer}, "{X ...}"),
                questions);
   } else if (!path.empty() && cause && cause->name == answer) {
-    run_->miss(answer, written.place, fmt::format("moves to {}, which no file read declares", name),
-               fmt::format("give the .dat file that declares it, write the target as a constant, or --value "
-                           "'{}={{X ...}}'",
-                           answer),
-               questions);
+    run_->miss(
+        answer, written.place, fmt::format("moves to {}, which no file read declares", name),
+        "give the .dat file that declares it, write the target as a constant, or " + values_of_job({answer}, "{X ...}"),
+        questions);
   } else {
     Coordinates none;
     none.unknown = value;
@@ -392,9 +391,10 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move) {
   else
     speed = run_->given("$vel.cp");
   if (!speed) {
-    run_->miss(
-        "$vel.cp", statement.place, "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
-        "assign $VEL.CP in m/s, or give --value '$VEL.CP=...'", {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
+    run_->miss("$vel.cp", statement.place,
+               "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
+               "assign $VEL.CP in m/s, or give " + values_of_job({"$VEL.CP"}),
+               {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
     return false;
   }
   if (!speed->is_number() || !(speed->number > 0)) {
@@ -461,12 +461,10 @@ void Krl::read_zone(const Statement& statement, Instruction& move) {
                     fmt::format("approximates by {}, which is known only while the robot runs", written),
                     "assign a constant", "a number");
     else if (!number)
-      run_->note(
-          statement.place,
-          fmt::format(
-              "approximation by {0}: no file sets it, so that the robot stops at the target (give --value '{0}=...')",
-              written),
-          true);
+      run_->note(statement.place,
+                 fmt::format("approximation by {}: no file sets it, so that the robot stops at the target (give {})",
+                             written, values_of_job({written})),
+                 true);
     return number;
   };
   if (has(statement, "in_spline") && !has(statement, "last")) {
@@ -547,8 +545,7 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement) {
     const bool tool = cause->name[0] == 'T';
     const auto kind = tool ? Question::Kind::tool : Question::Kind::work_object;
     run_->miss(cause->name, statement.place, fmt::format("moves with {}, which no file read declares", cause->name),
-               fmt::format("give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
-                           "with the name '{}'",
+               fmt::format("give the file that declares it ($config.dat), or motion.{} with the name '{}'",
                            tool ? "tools" : "work_objects", cause->name),
                {{kind, cause->name, ""}});
   } else {

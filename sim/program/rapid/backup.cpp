@@ -59,7 +59,7 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
         files, [&](const fs::path& file) { return name_of(file) == name && file.parent_path() == list.parent_path(); });
     if (found == files.end())
       throw pipeline::InputError({list.string()}, fmt::format("lists {}, which is not beside it", name),
-                                 "add the module, or give those that there are with --module");
+                                 "add the module, or give those that there are in motion.modules");
     modules.push_back(*found);
   }
   if (modules.empty() && lower.find("endmodule") != std::string::npos)

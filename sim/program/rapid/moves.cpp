@@ -4,6 +4,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/settings/fields.h"
+#include "sim/program/interpreter/job_words.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
@@ -127,16 +128,15 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
     if (is_frame(type) && !name.empty() && name.find(':') == std::string::npos && !run_->variable(name)) {
       const auto kind = type == std::string("tooldata") ? Question::Kind::tool : Question::Kind::work_object;
       run_->miss(name, written.place, fmt::format("names {} '{}' that no module read declares", what, name),
-                 "give the module that declares it too (--module, motion.modules), or its frame in --frames "
-                 "FILE.yaml (motion.tools, motion.work_objects)",
+                 "give the module that declares it too (motion.modules: [{file: FILE}]), or its frame in "
+                 "motion.tools or motion.work_objects",
                  {{kind, name, ""}});
     } else if (written.kind == Expression::Kind::name && !run_->variable(written.text)) {
-      run_->miss(
-          written.text, written.place, fmt::format("names {} '{}' that no module read declares", what, written.text),
-          predefined(type, written.text) +
-              fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
-                          run_->remedy_for(value)),
-          run_->questions_for(value, form_of(type)));
+      run_->miss(written.text, written.place,
+                 fmt::format("names {} '{}' that no module read declares", what, written.text),
+                 predefined(type, written.text) + fmt::format("give the module that declares it too ({}), or {}",
+                                                              modules_of_job, run_->remedy_for(value)),
+                 run_->questions_for(value, form_of(type)));
     } else {
       // The form of another name that the argument depends on differs from the argument's form.
       const bool itself =
@@ -198,7 +198,7 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
           "give its orientation");
     else
       run_->miss(path, written.place, "has a target that was never given a value (all of it is 0)",
-                 fmt::format("give it one, in the program or with --value '{}=...'", path),
+                 "give it one, in the program or with " + values_of_job({path}),
                  {{Question::Kind::value, path, form_of("robtarget")}});
     return false;
   }

@@ -248,7 +248,7 @@ void Rapid::connect(const Statement& statement) {
   if (code_.reaches({call}, run_->module(), deepest, steers))
     run_->note(statement.place,
                fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
-                           "--routine {0} reads it alone",
+                           "motion.routine: {0} reads it alone",
                            call.text),
                true);
 }
@@ -392,9 +392,8 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
     for (const Routine& other : code.routines)
       if (names.size() < 40) names.push_back(other.written);
     problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", start),
-                 names.empty() ? "give the modules that hold its routines (--module, motion.modules)"
-                               : fmt::format("name one with --routine (motion.routine in a job): {}",
-                                             pipeline::joined(names, ", ")));
+                 names.empty() ? "give the modules that hold its routines (motion.modules: [{file: FILE}])"
+                               : fmt::format("name one in motion.routine: {}", pipeline::joined(names, ", ")));
     return;
   }
   explore(

@@ -312,10 +312,9 @@ class Script final : public Dialect {
     const bool free = move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
     if (!tcp_ && free) return true;  // a move of the axes does not need the tool
     if (!tcp_) {
-      run_->miss(
-          "tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
-          "write set_tcp(p[...]) before it, or give --frames FILE.yaml (motion.tools in a job) with the name 'tcp'",
-          {{Question::Kind::tool, "tcp", ""}});
+      run_->miss("tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
+                 "write set_tcp(p[...]) before it, or give motion.tools with the name 'tcp'",
+                 {{Question::Kind::tool, "tcp", ""}});
       return false;
     }
     const Frame& f = tcp_->frame;
@@ -393,10 +392,10 @@ class Script final : public Dialect {
     constexpr int deepest = 8;  // largest depth of calls
     const auto steers = [&](const Statement& s) { return s.kind == Statement::Kind::instruction && matters(s.name); };
     const std::string name = thread ? thread->written : statement.text;
-    run_->note(
-        statement.place,
-        fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone", name, name),
-        !thread || code_.reaches(thread->body, thread->module, deepest, steers));
+    run_->note(statement.place,
+               fmt::format("thread {}: runs beside the program, and is left out; motion.routine: {} reads it alone",
+                           name, name),
+               !thread || code_.reaches(thread->body, thread->module, deepest, steers));
   }
 
   const Code& code_;
@@ -468,7 +467,7 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
     const char* what = uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
     problems.add({code.files[0].name(), 1, 1},
                  options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
-                 names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
+                 names.empty() ? "give a script with moves" : fmt::format("name one in motion.routine: {}", names));
     return;
   }
   const Routine* routine = function ? function : script;

@@ -114,8 +114,8 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
   fs::remove(folder / "MAIN.LS");
   folder.write("cell.ls", program("CELL", "   1:  CALL WORK(1) ;\n"));
   CHECK_THROWS_WITH(read_program(motion_by(folder.folder())),
-                    Catch::Contains("holds several programs, and none that calls them; name one with --routine "
-                                    "(motion.routine in a job): cell, mov_home, other"));
+                    Catch::Contains("holds several programs, and none that calls them; name one in motion.routine: "
+                                    "cell, mov_home, other"));
 }
 
 TEST_CASE("fanuc backup: listings in two languages lie in folders of their own, beside one set of registers") {

@@ -251,7 +251,7 @@ TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
   CHECK(
       asked.problem() ==
       "cell.ls:6:6: error: counts by a register behind CALL GETCOUNT, which is known only while the robot runs; give it "
-      "with --value 'CALL GETCOUNT=...' (motion.values)");
+      "with motion.values: [{name: 'CALL GETCOUNT', value: VALUE}]");
   for (const auto& [answer, moves] : {std::pair{"R[1]=2", 2}, {"nothing", 3}}) {
     const Reading told =
         run("   1:  R[1]=3 ;\n   2:  CALL GETCOUNT(1) ;\n   3:  FOR R[2]=1 TO R[1] ;\n   4:J P[1] 100% FINE "
@@ -431,9 +431,10 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
       "50% FINE ;\n  10:  LBL[9] ;\n";
   const Reading asked = run(choice);
   REQUIRE(asked.problems.size() == 1);
-  CHECK(asked.problem() ==
-        "cell.ls:5:6: error: selects by R[1], which is known only while the robot runs; choose with --assume "
-        "cell.ls:5=VALUE (1, 2, else) (motion.assume in a job), or give --value 'R[1]=...'");
+  CHECK(
+      asked.problem() ==
+      "cell.ls:5:6: error: selects by R[1], which is known only while the robot runs; choose with "
+      "motion.assume: [{line: 'cell.ls:5', take: VALUE}] (1, 2, else), or give motion.values: [{name: 'R[1]', value: VALUE}]");
   CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.choose = {{"5", "2"}}})) == std::vector<int>{1, 1});
   CHECK(stops(run(choice, {.assume = {{"cell.ls:5", Assumption::else_branch}}})) == std::vector<int>{1});
@@ -495,8 +496,8 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
       "   1:  R[1]=1 ;\n   2:  R[2]=0 ;\n   3:  LBL[1] ;\n   4:  R[2]=R[2]+1 ;\n   5:  IF R[1]=1,JMP LBL[1] "
       ";\n   6:J P[1] "
       "100% FINE ;\n";
-  CHECK_THAT(run(counts).problem(),
-             Catch::Contains("goes back again and again") && Catch::Contains("--assume cell.ls:8=then"));
+  CHECK_THAT(run(counts).problem(), Catch::Contains("goes back again and again") &&
+                                        Catch::Contains("motion.assume: [{line: 'cell.ls:8', take: then}]"));
   // A palletizer: all passes differ until the first one repeats.
   const std::string pallet =
       "   1:  LBL[1] ;\n   2:  R[1]=0 ;\n   3:  LBL[2] ;\n   4:  PR[2]=PR[1] ;\n   5:  "
@@ -555,7 +556,7 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
   CHECK(warnings(run("   1:  Weave Sine[1] ;\n   2:J P[1] 100% FINE ;\n")).at(0).starts_with("weave: "));
   CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n").problem() ==
         "cell.ls:4:6: error: moves with WELD_SPEED, which lies in the controller's weld schedule; give it with "
-        "--value 'WELD_SPEED=8mm/sec' (motion.values)");
+        "motion.values: [{name: WELD_SPEED, value: '8mm/sec'}]");
   CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n", {.values = {{"WELD_SPEED", "60cm/min"}}}).move(0).speed.tool.value() ==
         Approx(0.01).epsilon(rounding));
   CHECK(run("   1:J P[1] 100% CNT R[4] ;\n").problems.at(0).what ==
@@ -566,9 +567,8 @@ TEST_CASE("fanuc: a value of WELD_SPEED that is no speed is named as the user's"
   const std::string seam = "   1:L P[3] WELD_SPEED CNT100 ;\n";
   const auto weld = [&](const std::string& value) { return run(seam, {.values = {{"WELD_SPEED", value}}}); };
   for (const char* value : {"9", "8 mm/s", "0mm/sec", "fast"})
-    CHECK_THAT(weld(value).problem(),
-               Catch::Contains(fmt::format("whose value '{}' in motion.values (--value)", value)) &&
-                   Catch::Contains("WELD_SPEED=8mm/sec"));
+    CHECK_THAT(weld(value).problem(), Catch::Contains(fmt::format("whose value '{}' in motion.values ", value)) &&
+                                          Catch::Contains("write it with its unit: 8mm/sec"));
   // A value of as many characters as the rest of the line takes nothing from it.
   REQUIRE(weld("8mm/sec").problem() == "no such problem");
   CHECK(weld("8mm/sec").move(0).zone.percent == weld("08mm/sec").move(0).zone.percent);
@@ -698,7 +698,7 @@ TEST_CASE("fanuc: CNT without a number is refused by name, not asked as a value"
     INFO(words);
     const Reading r = run(std::string("   1:J P[1] 50% ") + words + " ;\n", {.values = {{"PR[1]", "0,0,0,0,0,0"}}});
     REQUIRE(r.problems.size() == 1);
-    CHECK_THAT(r.problem(), Catch::Contains("without a number") && !Catch::Contains("--value"));
+    CHECK_THAT(r.problem(), Catch::Contains("without a number") && !Catch::Contains("motion.values"));
   }
 }
 
@@ -760,7 +760,7 @@ TEST_CASE("fanuc: an expression that is not read to its end gives no value") {
     const std::string lines = fmt::format("   1:  PR[3]={} ;\n   2:L PR[3] 100mm/sec FINE ;\n", sum);
     const Reading r = run(lines, known);
     REQUIRE(r.problems.size() == 1);
-    CHECK_THAT(r.problem(), Catch::Contains("--value 'PR[3]="));
+    CHECK_THAT(r.problem(), Catch::Contains("motion.values: [{name: 'PR[3]', value: 'X ... Y"));
     Asked given_value = known;
     given_value.values["PR[3]"] = "X 600 Y 0 Z 100 W 180 P 0 R 0";
     CHECK(run(lines, given_value).move(0).target.pose.position.x() == Approx(0.6).epsilon(rounding));
@@ -771,7 +771,8 @@ TEST_CASE("fanuc: an expression that is not read to its end gives no value") {
     const std::string lines = fmt::format("   1:  R[2]=1 ;\n   2:  R[1]={} ;\n   3:J P[1] R[1]% FINE ;\n", sum);
     const Reading r = run(lines);
     REQUIRE(r.problems.size() == 1);
-    CHECK_THAT(r.problem(), Catch::Contains("has a speed by R[1]") && Catch::Contains("--value 'R[1]=...'"));
+    CHECK_THAT(r.problem(), Catch::Contains("has a speed by R[1]") &&
+                                Catch::Contains("motion.values: [{name: 'R[1]', value: VALUE}]"));
     CHECK(run(lines, {.values = {{"R[1]", "8"}}}).move(0).speed.axis_percent.value() == 8);
   }
   CHECK_THAT(run("   1:  PR[1,3]=2^3 ;\n   2:L PR[1] 100mm/sec FINE ;\n", known).problem(),
@@ -782,7 +783,7 @@ TEST_CASE("fanuc: an expression that is not read to its end gives no value") {
             {.values = {{"R[1]", "8"}}})
             .problems.size() == 1);
   CHECK(run("   1:  FOR R[1]=1 TO 2^3 ;\n   2:J P[1] 50% FINE ;\n   3:  ENDFOR ;\n").problems.size() == 1);
-  CHECK(run("   1:  R[1]= ;\n   2:J P[1] R[1]% FINE ;\n").problem().find("--value 'a value") == std::string::npos);
+  CHECK(run("   1:  R[1]= ;\n   2:J P[1] R[1]% FINE ;\n").problem().find("{name: 'a value") == std::string::npos);
   // Expressions of controllers are read to their end.
   const Reading whole =
       run("   1:  R[1:count]=(R[2]+1)*2 DIV 2    ;\n   2:  OVERRIDE=50% ;\n   3:  IF (R[1]=2 AND !(R[2]>5)) THEN ;\n"

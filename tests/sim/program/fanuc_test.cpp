@@ -90,9 +90,10 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
       run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[1] R[9]% FINE ;\n 3: LBL[1] ;\n 4: UTOOL_NUM=2 ;\n 5: CALL "
           "OTHER ;\n 6: DO[1]=ON ;\n 7:J P[7] 5% FINE ;\n");
   REQUIRE(r.problems.size() == 3);
-  CHECK(r.problem(0) ==
-        "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
-        "--assume cell.ls:5=then or =else (motion.assume in a job), or give --value 'DI[3]=...'");
+  CHECK(
+      r.problem(0) ==
+      "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
+      "motion.assume: [{line: 'cell.ls:5', take: then}] or take: else, or give motion.values: [{name: 'DI[3]', value: VALUE}]");
   for (const char* what :
        {"has a speed by R[9], which is known only while the robot runs", "moves to P[7], which is not listed"})
     CHECK(std::any_of(r.problems.begin(), r.problems.end(),

@@ -51,7 +51,7 @@ TEST_CASE("inform: pulses become angles by the controller's counts, which are as
   const Reading asked = run(taught, "MOVJ C00000 VJ=50.00\nMOVJ C00000 VJ=40.00\n");
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problem().find("A.JBI:14:6: error: moves to a position in pulses") != std::string::npos);
-  CHECK(asked.problem().find("pulses_per_degree=[S,L,U,R,B,T]") != std::string::npos);
+  CHECK(asked.problem().find("{name: pulses_per_degree, value: '[S,L,U,R,B,T]'}") != std::string::npos);
   const Reading r = run(taught, "MOVJ C00000 VJ=50.00\n", given(counts));
   REQUIRE(r.problem() == "no such problem");
   const double expected[] = {90, -10, -3, 1, -2.5, 0.5};
@@ -182,13 +182,13 @@ TEST_CASE("inform: what inputs and unknown variables decide is asked, with the n
   const Reading input = run(three, "JUMP *END IF IN#(3)=ON\nMOVJ C00000 VJ=9\n*END\n");
   REQUIRE(input.problems.size() == 1);
   CHECK(input.problem().find("'IN#(3)' is an input of the controller") != std::string::npos);
-  CHECK(input.problem().find("--value 'IN#(3)=...'") != std::string::npos);
+  CHECK(input.problem().find("{name: 'IN#(3)', value: VALUE}") != std::string::npos);
   CHECK(lines_of(run(three, "JUMP *END IF IN#(3)=ON\nMOVJ C00000 VJ=9\n*END\nMOVJ C00001 VJ=9\n",
                      given({{"in#(3)", "ON"}}))) == std::vector<int>{20});
   const std::string variable =
       "IFTHENEXP B003=1 ANDEXP B004<>2\nMOVJ C00000 VJ=9\nELSEIFEXP B003=2\nMOVJ C00001 VJ=9\nELSE\n"
       "MOVJ C00002 VJ=9\nENDIF\n";
-  CHECK(run(three, variable).problem().find("--value 'B003=...'") != std::string::npos);
+  CHECK(run(three, variable).problem().find("{name: B003, value: VALUE}") != std::string::npos);
   CHECK(lines_of(run(three, variable, given({{"B3", "1"}, {"B004", "0"}}))) == std::vector<int>{18});
   CHECK(lines_of(run(three, variable, given({{"B3", "2"}, {"B004", "0"}}))) == std::vector<int>{20});
   const std::pair<std::string, std::string> values{"VAR.DAT",
@@ -282,7 +282,7 @@ TEST_CASE("inform: RCONF says which arm, the meaning of its first number is repo
   CHECK(newer.move(0).target.configuration.text() == "motoman 3 0 0 0 0 0");
   CHECK(skips(newer, "taken as the sign of axis B", true));
   for (const char* answer : {"\"B\"", "\"R\""}) {  // the note names both, and each ends it
-    CHECK(skips(newer, "--value 'rconf_flip=" + std::string(answer) + "'", true));
+    CHECK(skips(newer, "{name: rconf_flip, value: '" + std::string(answer) + "'}", true));
     CHECK(!skips(run(three, "MOVJ C00000 VJ=9\n", given({{"rconf_flip", answer}})), "RCONF", true));
   }
   const Reading told = run(three, "MOVJ C00000 VJ=9\n", given({{"rconf_flip", "\"R\""}}));

@@ -68,7 +68,7 @@ TEST_CASE("krl: a program within a backup sees all of it") {
 TEST_CASE("krl: where several programs could be meant, one is asked for") {
   const Scratch folder;
   write_backup(folder, "pick()\nCASE 2\nplace()");
-  CHECK_THROWS_WITH(read(folder / ""), Catch::Contains("--routine") && Catch::Contains("pick, place"));
+  CHECK_THROWS_WITH(read(folder / ""), Catch::Contains("motion.routine") && Catch::Contains("pick, place"));
   CHECK(places(read(folder / "", "place")) == std::vector<double>{800});
 }
 

@@ -341,7 +341,7 @@ TEST_CASE("krl: bases and tools that only the user has") {
     const Reading missing = run(program);
     REQUIRE(missing.problems.size() == 1);
     CHECK(missing.problems[0].what == "moves with BASE_DATA[1], which no file read declares");
-    CHECK(missing.problems[0].remedy.find("--frames") != std::string::npos);
+    CHECK(missing.problems[0].remedy.find("motion.work_objects with the name 'BASE_DATA[1]'") != std::string::npos);
     // A list that is declared without the element does not give it a value.
     const Reading declared =
         run(program, "", {{"$c.dat", "DEFDAT $C\nDECL FRAME BASE_DATA[9]\nENDDAT\n"}}, {Language::krl, {}, {}, bases});
@@ -355,7 +355,7 @@ TEST_CASE("krl: a target without a value is distinguished from one without a dec
   CHECK(run("DECL E6POS pa\nPTP pa").problem() ==
         "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
         "that "
-        "holds its value (.dat), or --value 'pa={X ...}'");
+        "holds its value (.dat), or motion.values: [{name: pa, value: '{X ...}'}]");
   // The user's value is used until the program writes to the name. The same rule applies to an input.
   Reader given{Language::krl};
   given.options.values = {{"pa", axes(7)}, {"gi", "3"}};
@@ -381,7 +381,7 @@ TEST_CASE("krl: a loop that only waits for an input goes on, outputs or not") {
 TEST_CASE("krl: frames of an undeclared FDAT are asked for by its name") {
   CHECK_THAT(run("$VEL.CP=1\nFDAT_ACT=FHOME\nBAS(#FRAMES)\nLIN " + pose).problem(),
              Catch::Contains("'fhome' is a name that no file read declares") &&
-                 Catch::Contains("or give --value 'fhome=...'"));
+                 Catch::Contains("or give motion.values: [{name: fhome, value: VALUE}]"));
 }
 
 TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
@@ -773,8 +773,9 @@ TEST_CASE("krl: all that a move lacks is asked for in one round") {
                             "\nf.X=$ANIN[1]\nf.Y=$ANIN[2]\nf.Z=$ANIN[3]\n$TOOL=$NULLFRAME\nBAS(#BASE,0)\n"
                             "PTP f");
   REQUIRE(place.problems.size() == 1);
-  CHECK_THAT(place.problem(),
-             Catch::Contains("$anin[1]=") && Catch::Contains("$anin[2]=") && Catch::Contains("$anin[3]="));
+  CHECK_THAT(place.problem(), Catch::Contains("{name: '$anin[1]', value: VALUE}") &&
+                                  Catch::Contains("{name: '$anin[2]', value: VALUE}") &&
+                                  Catch::Contains("{name: '$anin[3]', value: VALUE}"));
 }
 
 TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program says") {
@@ -793,7 +794,8 @@ TEST_CASE("krl: the remedies of a move of some axes after a pose work") {
     const Reading asked = run(here + move);
     REQUIRE(asked.problems.size() == 1);
     CHECK_THAT(asked.problem(), Catch::Contains("the move before goes to a pose") &&
-                                    Catch::Contains("or move to axis angles before") && Catch::Contains("$axis_act="));
+                                    Catch::Contains("or move to axis angles before") &&
+                                    Catch::Contains(":$axis_act', value: VALUE}"));
     CHECK(run(here + "PTP " + axes(1) + "\n" + move).problems.empty());
   }
   CHECK(run(here + "PTP " + axes(1)).problems.empty());

@@ -215,7 +215,7 @@ TEST_CASE("krl: problems name what is missing and where") {
   REQUIRE(r.problems.size() == 4);
   CHECK(r.problem(0) ==
         "cell.src:3:5: error: moves to 'xp7', which no file read declares; give the .dat file that declares "
-        "it, write the target as a constant, or --value 'cell:xp7={X ...}'");
+        "it, write the target as a constant, or motion.values: [{name: 'cell:xp7', value: '{X ...}'}]");
   CHECK(r.problems[1].what == "moves along a path before $VEL.CP is assigned (its value lies in the controller)");
   CHECK(r.problems[2].what == "moves with TOOL_DATA[3], which no file read declares");
   CHECK(r.problems[3].where.line == 8);

@@ -73,7 +73,7 @@ TEST_CASE("rapid controller: what an instruction that is left out writes is unkn
     const Reading branch = run(declared + reads + std::string("\nIF k=1 THEN\n") + go(1) + "ENDIF\n" + go(2));
     CHECK_THAT(branch.problem(),
                Catch::Contains("branches on a condition that is known only while the robot runs: 'k'"));
-    CHECK_THAT(branch.problem(), Catch::Contains("--value 'k=...'"));
+    CHECK_THAT(branch.problem(), Catch::Contains("motion.values: [{name: k, value: VALUE}]"));
     const Reading count = run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n" + go(2));
     CHECK_THAT(count.problem(), Catch::Contains("counts to a number that is known only while the robot runs"));
     CHECK(first_axes(run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n", "",
@@ -261,8 +261,11 @@ TEST_CASE("rapid controller: values behind one branch are one question, the one 
           "MoveL Offs(p,x,0,0),v100,fine,tool0;\nMoveL Offs(p,0,y,0),v100,fine,tool0;\n",
           pose);
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(), Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
-                              Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
+  CHECK_THAT(
+      r.problem(),
+      Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
+          Catch::Contains(
+              "give motion.values: [{name: gi1, value: VALUE}], or motion.assume: [{line: 'm.mod:5', take: then}] or take: else"));
   const Reading answered = run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n",
                                pose, given({{"gi1", "2"}}));
   REQUIRE(answered.problem() == "no such problem");
@@ -272,7 +275,7 @@ TEST_CASE("rapid controller: a refusal names the routine and all that its condit
   const Reading r = run("step;\n", "PROC step()\nIF di1=1 AND di2=0 THEN\n" + go(1) +
                                        "ENDIF\nIF di1=1 AND di2=0 THEN\n" + go(2) + "ENDIF\nENDPROC\n");
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(), Catch::Contains("--value 'di1=...' --value 'di2=...'"));
+  CHECK_THAT(r.problem(), Catch::Contains("motion.values: [{name: di1, value: VALUE}, {name: di2, value: VALUE}]"));
   Problems problems;
   for (const Problem& p : r.problems) problems.add_use(p);
   Problem again = r.problems[0];
@@ -284,7 +287,8 @@ TEST_CASE("rapid controller: a refusal names the routine and all that its condit
 
 TEST_CASE("rapid controller: an offset of a target without a value asks for the target") {
   CHECK_THAT(run("VAR robtarget t;\nMoveL Offs(t,0,0,50),v100,fine,tool0;\n").problem(),
-             Catch::Contains("'t' was never given a value (all of it is 0)") && Catch::Contains("--value 't=...'"));
+             Catch::Contains("'t' was never given a value (all of it is 0)") &&
+                 Catch::Contains("motion.values: [{name: t, value: VALUE}]"));
   CHECK_THAT(run("VAR iodev io;\nMoveL Offs(p,0,0,ReadNum(io)),v100,fine,tool0;\n", pose).problem(),
              Catch::Contains("'readnum' is a function of what the robot meets"));
 }
@@ -401,7 +405,7 @@ TEST_CASE("rapid controller: CJointT stands where the last joint move led") {
 
 TEST_CASE("rapid controller: inputs are given by their names, arguments behind the routine's") {
   const std::string lift = "MoveL Offs(p,0,0,10*GInput(gi1)),v1000,fine,tool0;\n";
-  CHECK_THAT(run(lift, pose).problem(), Catch::Contains("give --value 'gi1=...'"));
+  CHECK_THAT(run(lift, pose).problem(), Catch::Contains("give motion.values: [{name: gi1, value: VALUE}]"));
   CHECK(run(lift, pose, given({{"gi1", "2"}})).move(0).target.pose.position.z() == Approx(1.02).epsilon(rounding));
   ImportOptions routine;
   routine.routine = "drill(3)";
@@ -414,7 +418,8 @@ TEST_CASE("rapid controller: inputs are given by their names, arguments behind t
 TEST_CASE("rapid controller: the loop that runs away is named, not the routine that it called") {
   const Reading r =
       run("VAR num n:=0;\nWHILE n<10 DO\nsignals;\nENDWHILE\n", "PROC signals()\nSetDO do1,1;\nENDPROC\n");
-  CHECK_THAT(r.problem(), Catch::Contains("m.mod:4:") && Catch::Contains("--assume m.mod:4=then"));
+  CHECK_THAT(r.problem(),
+             Catch::Contains("m.mod:4:") && Catch::Contains("motion.assume: [{line: 'm.mod:4', take: then}]"));
 }
 
 TEST_CASE("rapid controller: what is missing is reported once, with the number of its other places") {
@@ -425,7 +430,7 @@ TEST_CASE("rapid controller: what is missing is reported once, with the number o
   REQUIRE(frames.problems.size() == 2);
   for (const Problem& problem : frames.problems)
     CHECK(problem.more_uses.size() == 1);  // counted per line, not per pass
-  CHECK_THAT(frames.problem(0), Catch::Contains("'grip'") && Catch::Contains("--frames"));
+  CHECK_THAT(frames.problem(0), Catch::Contains("'grip'") && Catch::Contains("motion.tools or motion.work_objects"));
   const Reading parts =
       run("MoveJ Offs(p,0,0,height),v1000,fine,tool0;\nMoveL Offs(p,0,0,height+5),v1000,fine,tool0;\n", pose);
   REQUIRE(parts.problems.size() == 1);
@@ -437,7 +442,7 @@ TEST_CASE("rapid controller: one question for one decision, whatever it depends 
   const Reading r =
       run("wait di1;\nwait di2;\n", "PROC wait(VAR signaldi input)\nIF input=1 THEN\n" + go(1) + "ENDIF\nENDPROC\n");
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(), Catch::Contains("--assume m.mod:7=then"));
+  CHECK_THAT(r.problem(), Catch::Contains("motion.assume: [{line: 'm.mod:7', take: then}]"));
 }
 
 TEST_CASE("rapid controller: encoded modules are reported as encoded, and matter only where they are called") {
@@ -477,10 +482,11 @@ TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the r
   CHECK_THAT(run("CONNECT number WITH halt;\nISignalDI di1,1,number;\n" + branch, traps).problem(),
              Catch::Contains("'stopped' may be written by the trap halt (m.mod:3)"));
   CHECK(first_axes(run("CONNECT number WITH halt;\nstopped:=FALSE;\n" + branch, traps)) == Angles{2});
-  CHECK(skips(run("CONNECT number WITH flee;\n" + go(1), traps),
-              "flee: a trap that moves or stops the robot on its interrupt, which is taken not to come; --routine "
-              "flee reads it alone",
-              true));
+  CHECK(
+      skips(run("CONNECT number WITH flee;\n" + go(1), traps),
+            "flee: a trap that moves or stops the robot on its interrupt, which is taken not to come; motion.routine: "
+            "flee reads it alone",
+            true));
   CHECK_FALSE(skips(run("CONNECT number WITH halt;\n" + go(1), traps), "a trap", true));
 }
 
@@ -515,7 +521,7 @@ TEST_CASE("rapid controller: one state of a machine is no motion") {
   const std::string machine = "TEST state\nCASE 0:\n" + go(1) + go(2) + "state:=1;\nCASE 1:\n" + go(3) +
                               "state:=2;\nCASE 2:\nIF di1=1 state:=3;\nCASE 3:\n" + go(4) + "ENDTEST\n",
                     data = "VAR num state:=0;\n";
-  CHECK_THAT(run(machine, data).problem(), Catch::Contains("in pass 4 of main: --passes 3 ends before"));
+  CHECK_THAT(run(machine, data).problem(), Catch::Contains("in pass 4 of main: motion.passes: 3 ends before"));
   ImportOptions three;
   three.passes = 3;
   CHECK(first_axes(run(machine, data, three)) == Angles{1, 2, 3});
@@ -568,9 +574,11 @@ TEST_CASE("rapid controller: a function may move the robot where a condition or 
 
 TEST_CASE("rapid controller: what a branch without moves decides can be had by answering that branch") {
   const std::string body = "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
-  CHECK_THAT(run(body).problem(),
-             Catch::Contains("'k' depends on the branch in m.mod:4, that on 'di1', which is a name") &&
-                 Catch::Contains("or give --value 'di1=...', or --assume m.mod:4=then or =else"));
+  CHECK_THAT(
+      run(body).problem(),
+      Catch::Contains("'k' depends on the branch in m.mod:4, that on 'di1', which is a name") &&
+          Catch::Contains(
+              "or give motion.values: [{name: di1, value: VALUE}], or motion.assume: [{line: 'm.mod:4', take: then}] or take: else"));
   ImportOptions answered;
   answered.assume["m.mod:4"] = Assumption::then_branch;
   CHECK(first_axes(run(body, "", answered)) == Angles{1, 2});
@@ -621,7 +629,7 @@ TEST_CASE("rapid controller: moves that come after more passes than are searched
     const Reading seldom = run(begin + body("n>=1000") + end, data);
     CHECK(first_axes(seldom) == Angles{1});
     CHECK(skips(seldom, words, true));
-    CHECK_THAT(moves_left_out(seldom.program).front().line(), Catch::Contains("Remedy: motion.passes: N in the job"));
+    CHECK_THAT(moves_left_out(seldom.program).front().line(), Catch::Contains("Remedy: motion.passes: N, with"));
     // the other arm does not move, or the values of the comparison return: no doubt
     CHECK_FALSE(skips(run(begin + body("n>0") + end, data), words, true));
     CHECK_FALSE(skips(run(begin + body("n MOD 3=0") + end, data), words, true));

@@ -137,8 +137,8 @@ TEST_CASE("rapid: a branch on an input is asked for, with its line, and all of t
   CHECK(r.problem(0) ==
         "main.mod:3:1: error: branches on a condition that is known only while the robot runs: 'di1' is a name that no "
         "file "
-        "read declares; choose with --assume main.mod:3=then or =else (motion.assume in a job), or give "
-        "--value 'di1=...' (motion.values)");
+        "read declares; choose with motion.assume: [{line: 'main.mod:3', take: then}] or take: else, or give "
+        "motion.values: [{name: di1, value: VALUE}]");
   CHECK(r.problems[1].where.line == 8);
   REQUIRE(r.program.skipped.size() == 1);  // the branch without moves needs no answer
   CHECK(r.program.skipped[0].where.line == 11);
@@ -203,7 +203,7 @@ TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   CHECK(r.problem(0) ==
         "main.mod:3:7: error: names a target 'p9' that no module read declares; give the module that "
         "declares it "
-        "too (--module, motion.modules), or --value 'p9=...' (motion.values)");
+        "too (motion.modules: [{file: FILE}]), or motion.values: [{name: p9, value: VALUE}]");
   CHECK(r.problems[1].what == "names a zone 'z77' that no module read declares");
   CHECK(r.problems[2].what == "names a tool 'torch' that no module read declares");
   CHECK(r.problems[3].what == "names a speed 'v1' that no module read declares");

@@ -31,7 +31,7 @@ TEST_CASE("columns: the unit comes from the names, where neither they nor the an
   CHECK(asked.problem() ==
         "j.csv:1:1: error: gives angles without a unit (none is too large for radians); end the names in deg "
         "or "
-        "rad (joint_1_rad), or give --value unit=deg or unit=rad");
+        "rad (joint_1_rad), or give motion.values: [{name: unit, value: deg}] or value: rad");
   CHECK(columns(small, {{"unit", "rad"}}).move(0).target.joints[1] == -1.57);
   CHECK(columns(small, {{"unit", "deg"}}).move(0).target.joints[1] == Approx(-1.57 * degree).epsilon(rounding));
   CHECK(columns("t;a1 [rad];a2 [deg]\n0;1;90\n").move(0).target.joints == std::vector<double>{1, 90 * degree});
@@ -59,9 +59,10 @@ TEST_CASE("columns: the axes stand in the order of their names") {
             .move(0)
             .target.joints[0] == Approx(10 * degree).epsilon(rounding));
   const Reading unknown = columns("time,hip,knee\n0,30,20\n");
-  CHECK(unknown.problem() ==
-        "j.csv:1:1: error: names axes without their order (hip, knee); number them in their names "
-        "(joint_1 ...), or give --value joints=NAME,NAME,... in the order of the robot's axes");
+  CHECK(
+      unknown.problem() ==
+      "j.csv:1:1: error: names axes without their order (hip, knee); number them in their names "
+      "(joint_1 ...), or give motion.values: [{name: joints, value: 'NAME,NAME,...'}] in the order of the robot's axes");
   CHECK(columns("time,hip,knee\n0,30,20\n", {{"joints", "knee, hip"}}).move(0).target.joints ==
         std::vector<double>{20 * degree, 30 * degree});
 }

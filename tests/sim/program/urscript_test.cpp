@@ -171,7 +171,7 @@ TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
   const Reading asked = run(text);
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problem().find("'get_standard_digital_in(2)' is known only while the robot runs") != std::string::npos);
-  CHECK(asked.problem().find("--value 'get_standard_digital_in(2)=...'") != std::string::npos);
+  CHECK(asked.problem().find("{name: 'get_standard_digital_in(2)', value: VALUE}") != std::string::npos);
   CHECK(first_axes(run(text, given({{"get_standard_digital_in(2)", "True"}}))) == std::vector<double>{1});
   const Reading place = run("movel(get_inverse_kin(camera_pose()))\n");
   CHECK(place.problem().find("'camera_pose()'") != std::string::npos);
