@@ -1,8 +1,7 @@
 // Stores numbers with as few bits as a chunk of them needs, byte for byte like HDF5's scale-offset filter: every HDF5 library
-// reads such a dataset as plain numbers, and this code is many times faster. For the 114 million reversals of a glued job of 0.8
-// G wire-samples, which takes 4.5 s in total: 0.36 s to write and 0.22 s to read 258 MB; HDF5's own filter 3.2 and 1.9 s;
-// libdeflate 3.3 s and 341 MB, or 2.6 s and 233 MB as integers, which the format does not have; without compression 454 MB (Xeon,
-// one core, busy machine).
+// reads such a dataset as plain numbers. Packing 20 million floats takes 0.064 s, unpacking 0.038 s (EPYC, one core, busy
+// machine); HDF5's own filter takes about nine times as long. The 114 million reversals of a glued job need 258 MB; by libdeflate
+// 341 MB, or 233 MB as integers, which the format does not have, both in more time than HDF5's filter; without compression 454 MB.
 //
 // A chunk has 21 bytes of header and a bit stream. Header: bits per number b (4 bytes), the number 8 (1 byte), the smallest
 // number m (8 bytes, a float in the first 4), 8 zeros; all little-endian. Stream: round((x - m) 10^D) of each number in b bits,
