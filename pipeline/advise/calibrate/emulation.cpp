@@ -52,6 +52,15 @@ LifeEnd end_of(ObservedEnd end) {
   return bounds_below(end) ? LifeEnd::at_least : LifeEnd::at_most;
 }
 
+/// Returns z as LifeOverParameters takes it: relative to the centre, which the jobs' keys contain. `rest` counts from its median,
+/// because the place that a job has of its own is one of few, and not that of its key.
+VectorXd beside(const VectorXd& z, const VectorXd& centre) {
+  constexpr auto rest = static_cast<Index>(index_of(Uncertain::rest));
+  VectorXd from_centre = z.head(centre.size()) - centre;
+  from_centre[rest] = z[rest];
+  return from_centre;
+}
+
 class RoundEmulation {
  public:
   RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const std::vector<RankingRow>& rows,
@@ -152,7 +161,7 @@ class RoundEmulation {
     const auto over = std::make_shared<const LifeOverParameters>(std::move(modes), programs.front().moves);
     for (OwnValues& own : own_values(over->modes(), programs.front().own, round_.prior(), draws))
       life.variants.push_back([over, own = std::move(own), at = round_.centre()](const VectorXd& z) {
-        const LifeAt hours = over->at(z.head(at.size()) - at, &own, own_spread_at(z[own_spread_place]));
+        const LifeAt hours = over->at(beside(z, at), &own, own_spread_at(z[own_spread_place]));
         return LifeAt{std::min(endless_log_life, hours.log_median), hours.spread};
       });
     return life;
@@ -302,15 +311,18 @@ class RoundEmulation {
     const LogLife centre = log_life_of(test.observation, row);
     if (row.life_response.empty() || centre.median >= endless_log_life)
       return [centre](const VectorXd&) { return LifeAt{centre.median, std::exp(centre.spread)}; };
-    const auto life = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
-    const LifeAt modelled = life->at(VectorXd::Zero(uncertain_count));
+    FailureModes modes = modes_from_text(row.life_response);
+    const auto life = std::make_shared<const LifeOverParameters>(modes, runs.moves);
+    for (LifeResponse& mode : modes)
+      mode.knowledge.mean.setZero();  // the row's lives are those of the job's own values
+    const LifeAt modelled = LifeOverParameters(std::move(modes), runs.moves).at(VectorXd::Zero(uncertain_count));
     return
         [life, centre, modelled, at = round_.centre(), typical = test.typical, moves = runs.moves](const VectorXd& z) {
-          const VectorXd beside = z.head(at.size()) - at;
-          const LifeAt here = life->at(beside);
+          const VectorXd from_centre = beside(z, at);
+          const LifeAt here = life->at(from_centre);
           const double between =
               typical ? deviation_between_cables([&](const VectorXd& there) { return life->log_median_at(there); },
-                                                 moves, beside)
+                                                 moves, from_centre)
                       : 0;
           return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
                         std::exp(centre.spread) * here.spread / modelled.spread, between, life->residual()};

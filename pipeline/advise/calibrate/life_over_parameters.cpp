@@ -12,6 +12,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// Returns z as the response counts it, from the job's own values. They differ from the mean in `rest` (fatigue/response.h).
+ParameterPoint from_own(const LifeResponse& response, ParameterPoint z) {
+  for (std::size_t p = 0; p < uncertain_count; ++p) z[p] += response.knowledge.mean(static_cast<Index>(p));
+  return z;
+}
+
 }  // namespace
 
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
@@ -74,11 +80,12 @@ double LifeOverParameters::first(const ParameterPoint& z, double u, const OwnVal
 }
 
 double LifeOverParameters::log10_life(std::size_t mode, const ParameterPoint& z, double u) const {
-  if (programs_.size() == 1)  // exactly the life of its job
-    return surfaces_[0][mode].log10_life(z, u, Inside::as_is) - std::log10(programs_[0].per_hour);
-  double damage = 0;  // per hour of operation
-  for (std::size_t k = 0; k < programs_.size(); ++k)
-    damage += programs_[k].per_hour * std::pow(10.0, -surfaces_[k][mode].log10_life(z, u, Inside::as_is));
+  const auto of_repeat = [&](std::size_t k) {
+    return surfaces_[k][mode].log10_life(from_own(programs_[k].modes[mode], z), u, Inside::as_is);
+  };
+  if (programs_.size() == 1) return of_repeat(0) - std::log10(programs_[0].per_hour);  // exactly the life of its job
+  double damage = 0;                                                                   // per hour of operation
+  for (std::size_t k = 0; k < programs_.size(); ++k) damage += programs_[k].per_hour * std::pow(10.0, -of_repeat(k));
   return damage > 0 ? -std::log10(damage) : endless_log_life;
 }
 

@@ -42,7 +42,8 @@ class LifeOverParameters {
   LifeOverParameters& operator=(const LifeOverParameters&) = delete;
   const FailureModes& modes() const { return programs_.front().modes; }
 
-  /// Returns the life in repeats, or in hours of operation. beside: (parameter) z relative to the job's keys. own: values of one
+  /// Returns the life in repeats, or in hours of operation. beside: (parameter) z relative to the job's keys; of `rest`
+  /// relative to the mean of each response's knowledge, because a job has one of several rests. own: values of one
   /// dresspack, with its residual; null: median values, with a scatter of wires that is common to all modes and without residual.
   /// own_spread: factor of own values and residual (own_spread.h). A life without end gives endless_log_life.
   LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr, double own_spread = 1) const;

@@ -475,19 +475,24 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
 /// Returns DutyPart::at_other_rests, for the mode that fails first at the medians.
 std::array<double, 2> at_other_rests(const FailureModes& modes) {
   const std::size_t rest = index_of(Uncertain::rest);
-  const auto median = [](const LifeResponse& mode) { return LifeSurface(mode).log10_life({}, 0, Inside::as_is); };
-  const LifeResponse& first = *std::ranges::min_element(modes, {}, median);
   const auto at = static_cast<Eigen::Index>(rest);
+  const auto beside_median = [&](const LifeResponse& mode, double by) {
+    ParameterPoint z{};
+    z[rest] = mode.knowledge.mean(at) + by;  // z counts from the job's own rest
+    return z;
+  };
+  const auto median = [&](const LifeResponse& mode) {
+    return LifeSurface(mode).log10_life(beside_median(mode, 0), 0, Inside::as_is);
+  };
+  const LifeResponse& first = *std::ranges::min_element(modes, {}, median);
   const double deviation = std::sqrt(first.knowledge.covariance(at, at));
   if (!(deviation > 0)) return {};
   const LifeSurface life(first);
   std::array<double, 2> ratios{1, 1};
   if (!life.depends_on(rest)) return ratios;
-  for (const int side : {-1, 1}) {
-    ParameterPoint z{};
-    z[rest] = side * deviation;
-    ratios[side > 0] = std::pow(10, life.change({}, Inside::as_is) - life.change(z, Inside::as_is));
-  }
+  for (const int side : {-1, 1})
+    ratios[side > 0] =
+        std::pow(10, life.change(beside_median(first, 0)) - life.change(beside_median(first, side * deviation)));
   return ratios;
 }
 

@@ -98,6 +98,48 @@ TEST_CASE("learned: the response of a row counts from the parameters that the ro
   }
 }
 
+TEST_CASE("learned: a life counts from the median of all rests, of which the job has another one") {
+  constexpr std::size_t rest = index_of(Uncertain::rest);
+  constexpr double slope = 0.4;  // [decades]
+  const auto at_rest = [&](double mean, double median = 5) {
+    LifeResponse response = straight_response(0, 0, 0, median);
+    for (const double z : {-2.0, 2.0}) {
+      response.points.emplace_back()[rest] = z, response.inside.push_back(Inside::as_is);
+      response.worst_life.insert(response.worst_life.end(), response.strength.size(),
+                                 response.worst_life.front() + slope * z);
+    }
+    response.knowledge.mean[rest] = mean;
+    return response.text();
+  };
+  const double ln10 = std::log(10.0);
+  for (const double centre : {0.0, 0.25}) {
+    Made made("    hours: 300\n    vary: {routing.free_length_m: [1.2, 1.3]}\n", centre);
+    Eigen::VectorXd z = Eigen::VectorXd::Constant(own_spread_place + 1, centre);
+    z[rest] = 0.3, z[own_spread_place] = own_spread_as_is;
+    std::vector<RankingRow> rows;
+    for (const std::size_t k : {0u, 1u}) {
+      RankingRow& row = rows.emplace_back(made.row(500, 0.4));
+      row.job = made.round->study().jobs.at(k).name;
+      row.life_response = at_rest(k == 0 ? 0.5 : -1.0);
+    }
+    const StudyPlaces places{made.scratch.folder(), {}};
+    const auto alone = emulate(made.tests, *made.round, rows, places).at(0).life->variants;
+    CHECK(alone.at(0)(z).log_median == Approx(std::log(500) + slope * (0.5 + 0.3) * ln10));
+    CHECK(alone.at(1)(z).log_median == Approx(std::log(500) + slope * (-1.0 + 0.3) * ln10));
+    // In service each dresspack has its own rest. 1e5 repeats of 36 s under each program alone, in equal shares of the time.
+    made.tests[0].observation.service = {{200, 0, true}};
+    for (ObservedTest::Variant& program : made.tests[0].variants) program.share_of_time = 0.5;
+    made.round.emplace(made.tests, std::vector<std::string>{}, "round",
+                       Eigen::VectorXd::Constant(uncertain_count, centre), Eigen::VectorXd::Ones(uncertain_count));
+    const auto own = emulate(made.tests, *made.round, rows, places).at(0).life->variants;
+    double mean = 0;
+    const double median = std::log(1000 / (0.5 * std::pow(10, -0.5 * slope) + 0.5 * std::pow(10, 1.0 * slope)));
+    for (const LifeVariant& each : own) mean += each(z).log_median / double(own.size());
+    // The own values of rest and motion have a mean of 0, and ln life is linear in both.
+    CHECK(mean == Approx(median).margin(1e-6));
+  }
+}
+
 TEST_CASE("learned: the likelihood of a life has all that an observation states, and its words have what moves it") {
   const double ln10 = std::log(10.0), spread = 0.5;
   for (const auto& [outcome, end] : {std::pair("broken", LifeEnd::broken),

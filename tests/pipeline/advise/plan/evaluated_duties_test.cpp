@@ -166,6 +166,23 @@ TEST_CASE("duties: every number of an evaluation follows from the damage at each
   }
 }
 
+TEST_CASE("duties: damage at other rests is compared with that at the median of all rests") {
+  constexpr std::size_t rest = index_of(Uncertain::rest);
+  Case of;
+  LifeResponse lead = response_of("lead", 1e5);
+  // 5, 5.5 and 6.5 decades at 0, the mean, and one deviation above it; 4.75 at one below
+  for (const auto& [z, decades] : {std::pair(-1.0, -0.5), {1.0, 1.0}}) {
+    lead.points.emplace_back()[rest] = z, lead.inside.push_back(Inside::as_is);
+    for (std::size_t k = 0; k < lead.strength.size(); ++k) lead.worst_life.push_back(lead.worst_life[k] + decades);
+  }
+  lead.knowledge.mean[rest] = 0.5, lead.knowledge.covariance(rest, rest) = 1;
+  of.rows[0] = row_of(of.scratch, of.programs[0], {lead, response_of("bus", 1e9)});
+  const DutyFile file = of.file("  - {name: d, programs: [{job: a, repeats_per_hour: 20, recording_of: cycle}]}\n");
+  const DutyPart part = evaluated(file, of.study, of.rows).at(0).parts.at(0);
+  CHECK(part.at_other_rests[0] == Approx(std::pow(10, 0.75)));
+  CHECK(part.at_other_rests[1] == Approx(std::pow(10, -1.0)));
+}
+
 TEST_CASE("duties: an order counts the damage of its round beside the repeats that no change interrupts") {
   Case of;
   const DutyFile file = of.file(
