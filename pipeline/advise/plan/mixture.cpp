@@ -1,5 +1,7 @@
 #include "pipeline/advise/plan/mixture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,16 +27,24 @@ std::string_view without_number(std::string_view name) {
                                                                                              : name;
 }
 
-/// Returns whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
-bool is_in_mode(std::string_view conductor, const WireSites::Mode& mode) {
-  std::string name = mode.dresspack;
-  if (!name.empty()) {
-    if (!conductor.starts_with(name)) return false;
-    conductor.remove_prefix(std::min(conductor.size(), name.size() + 1));
+/// Returns the mode to which the wires of a conductor with this path belong ("wires of signal cable", fatigue/failure_modes.h).
+/// The number at the end of a layer's name belongs to the name, that of one of several equal cables does not.
+std::uint32_t mode_with(std::string_view conductor, const std::vector<WireSites::Mode>& modes) {
+  std::uint32_t found = nothing;
+  for (std::uint32_t m = 0; m < modes.size(); ++m) {
+    const std::string& dresspack = modes[m].dresspack;
+    if (!dresspack.empty() && conductor != dresspack && !conductor.starts_with(dresspack + "/")) continue;
+    std::string_view cable = conductor;
+    if (!dresspack.empty()) cable.remove_prefix(std::min(cable.size(), dresspack.size() + 1));
+    cable = cable.substr(0, cable.find('/'));
+    const auto is_of = [&](std::string_view part) {
+      const std::string name = dresspack + (dresspack.empty() || part.empty() ? "" : "/") + std::string(part);
+      return modes[m].name == (name.empty() ? "wires" : "wires of " + name);
+    };
+    if (is_of(cable)) return m;
+    if (is_of(without_number(cable))) found = m;
   }
-  const std::string_view cable = without_number(conductor.substr(0, conductor.find('/')));
-  if (!cable.empty()) name += (name.empty() ? "" : "/") + std::string(cable);
-  return mode.name == (name.empty() ? "wires" : "wires of " + name);
+  return found;
 }
 
 /// Returns the conductor that contains a wire: the conductor with the longest path that is a prefix of the wire's path.
@@ -54,15 +64,17 @@ double at_least_alone(double sum, double largest, double c) { return c > 0 ? std
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
+bool is_damaged(const LifeResponse& mode) {
+  return std::ranges::any_of(mode.planned, [](const auto& lives) { return lives[1] < LifeResponse::undamaged; });
+}
+
 WireLayout layout_of(const WireSites& sites) {
   WireLayout wires;
   std::unordered_map<std::string, std::uint32_t> conductors;
   for (const std::string& path : sites.conductors)
     conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
   std::vector<std::uint32_t> mode_of(conductors.size(), nothing);
-  for (const auto& [path, index] : conductors)
-    for (std::size_t m = 0; m < sites.modes.size(); ++m)
-      if (is_in_mode(path, sites.modes[m])) mode_of[index] = static_cast<std::uint32_t>(m);
+  for (const auto& [path, index] : conductors) mode_of[index] = mode_with(path, sites.modes);
 
   struct Wire {
     std::uint32_t conductor = nothing, index = 0;
@@ -116,6 +128,10 @@ WireDamage WireDamages::read(const std::filesystem::path& life_file, const Failu
     layout_ = std::make_shared<const WireLayout>(layout_of(sites));
     stored_names_ = std::move(names);
   }
+  for (std::uint32_t m = 0; m < modes.size(); ++m)
+    if (is_damaged(modes[m]) && std::ranges::find(layout_->mode, m) == layout_->mode.end())
+      throw InputError(file.where(), fmt::format("none of its conductors belongs to the mode '{}'", modes[m].mode),
+                       "make the results again with dresslife run");
   return {layout_, file.read<double>("/damage"), modes.size()};
 }
 

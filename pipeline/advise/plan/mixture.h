@@ -70,7 +70,7 @@ struct WireSites {
 /// Reads life.h5 files. The programs of a plant mostly have equal sites, which are read and divided into places once.
 class WireDamages {
  public:
-  /// modes: modes of the file's life response. Errors: InputError.
+  /// modes: modes of the file's life response. Errors: InputError, also for a mode with damage and without a conductor.
   WireDamage read(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
 
  private:

@@ -183,6 +183,34 @@ TEST_CASE("duties: damage at other rests is compared with that at the median of 
   CHECK(part.at_other_rests[1] == Approx(std::pow(10, -1.0)));
 }
 
+TEST_CASE("duties: a number at the end of a layer's name belongs to the name of its mode") {
+  Case of;
+  const DutyFile file = of.file(
+      "  - name: d\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
+      "    order: [{job: a, repeats: 4}, {job: b, repeats: 3}]\n");
+  of.rows.push_back(row_of(of.scratch, {round_name(file.duties[0]), 100, {9e-6, 2e-6, 5e-7}}));
+  of.study.jobs.push_back({of.rows.back().job, std::make_shared<const Job>(), ""});
+  const auto put = [&](RankingRow& row, const std::string& layer, double damage) {
+    SampleLife life;
+    life.segments = 4, life.lines = 1, life.samples = 3;
+    life.repeats = 1 / damage, life.worst_component = layer + "/wire 1";
+    life.more_sites = {{"ring 3/wire 1", 1e-9}};
+    life.conductors = {{layer, 1}, {"ring 3", 1}};
+    write_sample_life(row.life_file, life);
+    row.life_response = modes_text({response_of("ring 1", 1 / damage), response_of("ring", 1e9)});
+  };
+  const std::array<double, 3> damages{4e-6, 1e-6, 9e-6};  // of a, b, the round
+  for (const std::size_t k : {0u, 1u, 2u}) put(of.rows[k == 2 ? 3 : k], "ring 1", damages[k]);
+  const DutyResult duty = evaluated(file, of.study, of.rows).at(0);
+  // Five rounds; 15 repeats of a and 25 of b are not their own.
+  CHECK(duty.changes.at(0) ==
+        Approx((15 * damages[0] + 25 * damages[1] + 5 * damages[2]) / (20 * damages[0] + 30 * damages[1])));
+  check_lives(duty.lives.percentiles, 1 / (15 * damages[0] + 25 * damages[1] + 5 * damages[2]));
+  for (const std::size_t k : {0u, 1u, 3u}) put(of.rows[k], "lead 1", 1e-6);
+  CHECK_THAT(message_of([&] { evaluated(file, of.study, of.rows); }),
+             Catch::Contains("none of its conductors belongs to the mode 'wires of ring 1'"));
+}
+
 TEST_CASE("duties: an order counts the damage of its round beside the repeats that no change interrupts") {
   Case of;
   const DutyFile file = of.file(
