@@ -111,7 +111,8 @@ std::string programs_table(const std::vector<DutyResult>& results, const std::st
           "<tr data-rank=\"{0}\"><td>{1}</td><td>{2}</td>{3}{4}{5}{6}{7}{8}</tr>\n", rows.size() + 1,
           escaped(duty.name), escaped(part.job), number_cell(part.repeats_per_hour, printed(part.repeats_per_hour)),
           percent(part.share_of_time), percent(duty.lives.share[k]), life(duty.lives.percentiles[0]),
-          life(part.without[0]), number_cell(part.as_twice[0], as_twice_text(duty, part))));
+          number_cell(part.without[0], without_text(duty, part)),
+          number_cell(part.as_twice[0], as_twice_text(duty, part))));
     }
   return sorted_table(
       "<th>duty</th><th>program</th><th class=\"number\">repeats per h</th><th class=\"number\">time</th><th class=\"number\">damage</th>"

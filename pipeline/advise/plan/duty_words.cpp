@@ -227,6 +227,10 @@ std::string mixture_words(const DutyResult& duty) {
   return text;
 }
 
+std::string without_text(const DutyResult& duty, const DutyPart& part) {
+  return std::isnan(part.without[0]) ? "not known" : shown_hours(duty.robot_life_hours, part.without[0]);
+}
+
 std::string as_twice_text(const DutyResult& duty, const DutyPart& part) {
   return std::isnan(part.as_twice[0]) ? "no time for it" : shown_hours(duty.robot_life_hours, part.as_twice[0]);
 }
@@ -246,8 +250,8 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
       text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>{}}  {:>{}}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
-                          100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
-                          columns_of(without), as_twice_text(duty, duty.parts[k]), columns_of(as_twice));
+                          100 * duty.lives.share[k], without_text(duty, duty.parts[k]), columns_of(without),
+                          as_twice_text(duty, duty.parts[k]), columns_of(as_twice));
     if (duty.past_hours > 0) text += "  new: of a new dresspack, which has no history.\n";
     text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);

@@ -20,6 +20,8 @@ std::string duty_action(const DutyResult& duty);
 std::string percentile_words(const DutyResult& duty);
 /// Returns hours in the form of a study's tables: beyond the robot's own life only "over" this life.
 std::string shown_hours(double robot_life, double hours);
+/// Returns the first percentile of DutyPart::without, or "not known".
+std::string without_text(const DutyResult& duty, const DutyPart& part);
 /// Returns the first percentile of DutyPart::as_twice, or "no time for it".
 std::string as_twice_text(const DutyResult& duty, const DutyPart& part);
 

@@ -448,22 +448,31 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
+/// Returns whether the order without this program would have changes, of which no round was computed.
+bool leaves_changes(const Duty& duty, const std::string& job) {
+  std::set<std::string> order;
+  for (const OrderedProgram& program : duty.order) order.insert(program.job);
+  return order.erase(job) > 0 && order.size() > 1;
+}
+
 /// Computes lives for other numbers of repeats, for one program at a time.
 void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // points of a chart
+  constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> repeats = repeats_of(result.parts);
   const double idle = sum_of(
       result.parts, [](const DutyPart& part) { return -part.share_of_time; }, 1.0);
   for (std::size_t k = 0; k < repeats.size(); ++k) {
     DutyPart& part = result.parts[k];
+    const bool leaves = leaves_changes(duty, part.job);
     const auto lives_at = [&](double factor) {
+      if (factor == 0 && leaves) return LifePercentiles{not_known, not_known, not_known};
       std::vector<double> times(repeats.size(), 1), changed = repeats;
       times[k] = factor, changed[k] *= factor;
       return lives_with(result.damage, times, places.at(changed, repeats_in_rounds(duty, changed)));
     };
     part.without = lives_at(0), part.as_twice = lives_at(2);
-    if (part.share_of_time > idle * (1 + 1e-9))
-      part.as_twice.fill(std::numeric_limits<double>::quiet_NaN());  // the hour is too short
+    if (part.share_of_time > idle * (1 + 1e-9)) part.as_twice.fill(not_known);  // the hour is too short
     if (!(part.share_of_time > 0)) continue;
     const double most =
         std::max(part.share_of_time, part.share_of_time + idle);  // at least the present share, without rounding

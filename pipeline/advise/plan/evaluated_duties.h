@@ -30,10 +30,13 @@ struct DutyPart {
   std::string job;
   double repeats_per_hour = 0;
   double share_of_time = 0;
-  LifePercentiles without{};   ///< [h] lives under the duty without this program
+  /// [h] lives under the duty without this program; NaN: the order's other programs would change between each other, in a round
+  /// that was not computed
+  LifePercentiles without{};
   LifePercentiles as_twice{};  ///< [h] with twice as many repeats of it; NaN: they would take more than all the time
-  std::vector<LifeAtShare> over_share{};  ///< from 0 to all time that the other programs leave; empty: it never runs
-  std::string recording_of{};             ///< DutyProgram::recording_of
+  /// from 0 (as `without`) to all time that the other programs leave; empty: it never runs
+  std::vector<LifeAtShare> over_share{};
+  std::string recording_of{};  ///< DutyProgram::recording_of
   /// ratio of its damage with the loose cables at other places of rest, one standard deviation to either side, to its damage at the
   /// medians; 1: no effect; 0: not known
   std::array<double, 2> at_other_rests{};

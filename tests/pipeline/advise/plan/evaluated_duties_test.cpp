@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/rounds.h"
 #include "pipeline/job/job.h"
 #include "tests/catch.h"
@@ -254,6 +255,30 @@ TEST_CASE("duties: an order counts the damage of its round beside the repeats th
       message_of([&] { evaluated(whole, full.study, full.rows); }),
       Catch::Contains("30.0 x 0.050 s of moves between them); give fewer repeats, or shares of the time that leave "
                       "0.042 % for the moves"));
+}
+
+TEST_CASE("duties: the life without a program of an order is not known if its others change between each other") {
+  Case of;
+  const DutyFile file = of.file(
+      "  - name: d\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 20}, {job: c, repeats_per_hour: 20}]\n"
+      "    order: [{job: a, repeats: 1}, {job: b, repeats: 1}, {job: c, repeats: 1}]\n"
+      "  - name: two\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 20}, {job: c, repeats_per_hour: 20}]\n"
+      "    order: [{job: a, repeats: 1}, {job: b, repeats: 1}]\n");
+  for (const Duty& duty : file.duties) {
+    of.rows.push_back(row_of(of.scratch, {round_name(duty), 100, {9e-6, 8e-6, 9e-6}}));
+    of.study.jobs.push_back({round_name(duty), std::make_shared<const Job>(), ""});
+  }
+  const std::vector<DutyResult> results = evaluated(file, of.study, of.rows);
+  for (const DutyPart& part : results.at(0).parts) {
+    CHECK(std::isnan(part.without[0]));
+    CHECK(std::isnan(part.over_share.at(0).hours[0]));
+    CHECK(part.over_share.at(1).hours[0] > 0);
+    CHECK(without_text(results[0], part) == "not known");
+  }
+  // Without a only b is left of the order, which changes to no other program. Without c the round stays.
+  check_lives(results.at(1).parts[0].without, ByHand({of.programs[1], of.programs[2]}, {20, 20}).hours());
+  check_lives(results.at(1).parts[2].without,
+              ByHand({of.programs[0], of.programs[1]}, {20, 20}, {0, 0, 20}, {9e-6, 8e-6, 9e-6}).hours());
 }
 
 TEST_CASE("duties: a plant's table of lives is the same distribution, and holds what its dresspacks share once") {
