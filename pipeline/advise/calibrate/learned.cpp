@@ -29,9 +29,11 @@ std::string parameter_lines(const Learned& learned) {
   };
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const LearnedAxis& axis = learned.axes[p];
+    const bool is_of_one = uncertain_parameters()[p].shared == SharedBy::installation;
     text += fmt::format("{:<17} {:>24} {:>24}  {}\n", uncertain_parameters()[p].name, range(axis.before),
                         axis.learned ? range(axis.after) : "-",
-                        axis.learned ? fmt::format("{:.0f} %", 100 * axis.narrowed) : why_not_learned(axis));
+                        axis.learned ? fmt::format("{:.0f} %{}", 100 * axis.narrowed, is_of_one ? ", only there" : "")
+                                     : why_not_learned(axis));
   }
   return text;
 }
@@ -257,11 +259,13 @@ std::string learned_table(const Learned& learned) {
   text +=
       "\nParameters: factors of the job's keys (slope: added to b): the middle value, and the range that holds it in 8 of 10 cases.\n"
       "Width after/before: of this range. Above 100 %: the observations leave more values possible than were assumed before.\n"
+      "Only there: each dresspack has its own value, so the calibration leaves out what the observed one had.\n"
       "Predicted: the life after which 10 % of such specimens have failed (half, 90 %); of a bending test its largest moment.\n"
       "Predicted before: without any observation. By the others: without this observation. Fails first: in which share of the samples.\n"
       "Compare 'predicted after' with the 'replace after' that dresslife run prints for a job with this calibration. They differ somewhat,\n"
-      "because run computes the strains at the middle values above. If no warning follows, plan with those of run. 'Predicted before' is\n"
-      "not what run prints without a calibration: run includes makers' ratings (uncertainty.ratings), which a calibration replaces.\n";
+      "because run is for another dresspack, and computes the strains at the middle values above. If no warning follows, plan with those of\n"
+      "run. 'Predicted before' is not what run prints without a calibration: run includes makers' ratings (uncertainty.ratings), which a\n"
+      "calibration replaces.\n";
   if (!learned.settled)
     text +=
         fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n", learned.rounds);

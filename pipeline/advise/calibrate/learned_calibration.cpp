@@ -96,6 +96,12 @@ std::vector<std::string> doubts_of(const Learned& learned) {
   return doubts;
 }
 
+/// Returns whether other dresspacks have the same value of the parameter of an axis.
+bool is_shared(const Axes& axes, Index axis) {
+  const Index p = axes.places()[static_cast<std::size_t>(axis)];
+  return uncertain_parameters()[static_cast<std::size_t>(p)].shared != SharedBy::installation;
+}
+
 std::string digest_of(const ObservedTest& test) {
   const std::filesystem::path& table = test.observation.bending;
   return xxh3(test.text + (table.empty() ? "" : xxh3_of_file(table)));
@@ -120,14 +126,17 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     if (const auto warning = contradiction_of(test)) contradictions.push_back(warning->words);
   calibration.contradiction = joined(contradictions, " ");
   if (!calibration.typical) calibration.doubts = joined(doubts_of(learned), "\n");
-  for (Index i = 0; i < axes.size(); ++i) {
+  std::vector<Index> shared;  // axes that the next dresspack has in common with those of the tests
+  for (Index i = 0; i < axes.size(); ++i)
+    if (is_shared(axes, i)) shared.push_back(i);
+  for (const Index i : shared) {
     const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
     LearnedParameter parameter;
     parameter.name = uncertain_parameters()[p].name;
     parameter.median = rounded(posterior.median[i]);
     parameter.mean = rounded(posterior.mean[i]);
     parameter.prior = rounded(axes.prior()[axes.places()[static_cast<std::size_t>(i)]]);
-    for (Index j = 0; j < axes.size(); ++j) parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
+    for (const Index j : shared) parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
     if (!calibration.typical) parameter.samples = some_of(posterior.draws.col(i));
     parameter.value = to_figures(learned.axes[p].after[1], 4);
     parameter.value_p10 = to_figures(learned.axes[p].after[0], 4);
