@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
@@ -319,9 +320,11 @@ bool RankingRow::force_ok() const {
 }
 
 const UnvalidatedMode* RankingRow::unvalidated_mode(std::string_view mode) const {
+  // Most kinks and corkscrews never occur at the median, so the early hours and the share decide.
+  const auto order = [](const UnvalidatedMode& of) { return std::tuple(of.hours[1], of.hours[0], -of.first_share); };
   const UnvalidatedMode* first = nullptr;
   for (const UnvalidatedMode& one : unvalidated)
-    if (one.mode == mode && (!first || one.hours[1] < first->hours[1])) first = &one;
+    if (one.mode == mode && (!first || order(one) < order(*first))) first = &one;
   return first;
 }
 

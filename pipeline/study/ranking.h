@@ -118,7 +118,7 @@ struct RankingRow {
       relative;  ///< relative life of the rating with the shortest life; absent: no cable has a rating
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-  /// Returns the unvalidated mode `mode` that fails first by its median; null: it was not evaluated.
+  /// Returns the unvalidated mode `mode` that fails first, by its median, else by its early hours or share; null: not evaluated.
   const UnvalidatedMode* unvalidated_mode(std::string_view mode) const;
   bool done() const { return failure.empty(); }
   bool has_wires() const { return worst_segment_from_tool > 0; }

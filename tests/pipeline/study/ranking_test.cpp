@@ -95,6 +95,15 @@ TEST_CASE("ranking: of several unvalidated modes of one name the first to fail c
   CHECK(row.unvalidated_mode("abrasion") == &row.unvalidated[2]);
   CHECK(row.unvalidated_mode("wall") == &row.unvalidated[1]);
   CHECK(row.unvalidated_mode("kinks") == nullptr);
+  // Half never kink: the hours until 10 % have, then the share of the samples.
+  for (const auto& [early, share] :
+       {std::pair(infinity, 0.01), {infinity, 0.08}, {400.0, 0.2}, {300.0, 0.2}, {500.0, 0.3}}) {
+    UnvalidatedMode& kink = row.unvalidated.emplace_back();
+    kink.mode = UnvalidatedMode::kink, kink.hours = {early, infinity, infinity}, kink.first_share = share;
+  }
+  CHECK(row.unvalidated_mode(UnvalidatedMode::kink) == &row.unvalidated[7]);
+  row.unvalidated.resize(6);
+  CHECK(row.unvalidated_mode(UnvalidatedMode::kink) == &row.unvalidated[5]);
   CHECK(force_words(row).empty());
   for (const double share : {0.19, 0.21, 3.0})
     for (const bool pull : {true, false}) {
