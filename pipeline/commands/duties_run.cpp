@@ -110,6 +110,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   for (const Warning& warning : mounting_warnings(file, standing.study, &rows))
     write_stderr(shown(warning.paragraph()));
   add_rounds(file, options, standing.study, standing.places, rows);
+  for (const Warning& warning : uncounted_changes(file, standing.study, rows)) write_stderr(shown(warning.paragraph()));
   return {std::move(standing.study), std::move(standing.places), std::move(rows)};
 }
 

@@ -569,6 +569,28 @@ std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study,
   return warnings;
 }
 
+std::vector<Warning> uncounted_changes(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows) {
+  std::vector<Warning> warnings;
+  Programs programs(study, rows);
+  for (const Duty& duty : file.duties) {
+    const RankingRow* const row = find_in(rows, &RankingRow::job, round_name(duty));
+    if (duty.order.empty() || !row || !row->done()) continue;  // the evaluation of the duty states why it failed
+    const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
+    const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
+    for (std::size_t m = 0; m < round->worst.size(); ++m)
+      if (round->worst[m] > 0 &&
+          std::ranges::all_of(evaluated, [&](const EvaluatedProgram& one) { return one.wires->worst[m] == 0; }))
+        warnings.push_back(warning_of(
+            WarningKind::motion, duty.where.text(),
+            fmt::format("the order of duty '{}' damages {} by {:.2g} per round, and its programs alone do not, so the "
+                        "changes between them are not counted for this mode",
+                        duty.name, (*evaluated.front().modes)[m].mode, round->worst[m]),
+            "programs that strain these wires too little, on different sides",
+            "a job with one motion of all programs instead of the order"));
+  }
+  return warnings;
+}
+
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows) {
   std::set<std::string> named;
   for (const Duty& duty : file.duties) {

@@ -93,6 +93,10 @@ void check_hours(const DutyFile& file, const std::map<std::string, double>& repe
 /// check_programs(). Errors: InputError for a damaged strain.h5.
 std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study, const std::vector<RankingRow>* rows);
 
+/// Returns a warning for each mode that only the changes between the programs of an order damage at the medians. (D2) divides by
+/// the damage of the programs, so it does not count these changes. Errors: as evaluated().
+std::vector<Warning> uncounted_changes(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows);
+
 /// Returns the rows of the programs of all duties.
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows);
 

@@ -281,6 +281,26 @@ TEST_CASE("duties: the life without a program of an order is not known if its ot
               ByHand({of.programs[0], of.programs[1]}, {20, 20}, {0, 0, 20}, {9e-6, 8e-6, 9e-6}).hours());
 }
 
+TEST_CASE("duties: a mode that only the changes of an order damage has a warning") {
+  Case of;
+  const DutyFile file = of.file(
+      "  - name: d\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 20}]\n"
+      "    order: [{job: a, repeats: 1}, {job: b, repeats: 1}]\n");
+  of.rows.push_back(row_of(of.scratch, {round_name(file.duties[0]), 100, {9e-6, 8e-6, 7e-6}}));
+  of.study.jobs.push_back({of.rows.back().job, std::make_shared<const Job>(), ""});
+  CHECK(uncounted_changes(file, of.study, of.rows).empty());
+  for (const std::size_t k : {0u, 1u}) {
+    of.programs[k].damage[2] = 0;
+    of.rows[k] = row_of(of.scratch, of.programs[k], {response_of("lead", 1e6), response_of("bus", 1e9)});
+  }
+  const std::vector<Warning> warnings = uncounted_changes(file, of.study, of.rows);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words,
+             Catch::StartsWith(
+                 "the order of duty 'd' damages wires of bus by 7e-06 per round, and its programs alone do not"));
+  CHECK(evaluated(file, of.study, of.rows).at(0).changes.at(1) == 1);
+}
+
 TEST_CASE("duties: a plant's table of lives is the same distribution, and holds what its dresspacks share once") {
   Case of;
   const DutyFile file = of.file(
