@@ -15,9 +15,11 @@
 
 #include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/advise/plan/rounds.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
@@ -509,10 +511,17 @@ std::array<double, 2> at_other_rests(const FailureModes& modes) {
 
 std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows) {
   std::vector<DutyMode> modes;
-  std::vector<std::array<double, 2>> per_hour;  // (mode) early, median
+  std::vector<std::array<double, 2>> per_hour;                  // (mode) early, median
+  const auto is_predicted = [&](const UnvalidatedMode& mode) {  // by all programs that run
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      for (const UnvalidatedMode& one : rows[k].unvalidated)
+        if (parts[k].share_of_time > 0 && one.mode == mode.mode && one.dresspack == mode.dresspack && !is_credible(one))
+          return false;
+    return is_credible(mode);
+  };
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const UnvalidatedMode& mode : rows[k].unvalidated) {
-      if (!is_credible(mode)) continue;
+      if (!is_predicted(mode)) continue;
       const std::string part = mode.mode == UnvalidatedMode::rating ? mode.place : "";
       const auto found = std::ranges::find_if(modes, [&](const DutyMode& one) {
         return one.mode == mode.mode && one.dresspack == mode.dresspack && one.place == part;
@@ -602,6 +611,20 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
 
 namespace {
 
+/// Returns the parts and modes without a life under one of the programs, each once.
+std::string not_evaluated_by(const std::vector<RankingRow>& rows) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const RankingRow& row : rows) {
+    for (const std::string& name : parts_between(row.not_evaluated, ", ")) add(name);
+    for (const UnvalidatedMode& mode : row.unvalidated)
+      if (!is_credible(mode)) add(mode.mode + (mode.dresspack.empty() ? "" : " of " + mode.dresspack));
+  }
+  return joined(names, ", ");
+}
+
 /// Returns the part of the result that needs no samples. rates: receives the rates of the programs.
 DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& rates) {
   DutyResult result;
@@ -621,7 +644,7 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
     }
   }
   result.others = other_modes(result.parts, programs.rows(duty));
-  result.not_evaluated = programs.row(duty.programs.front()).not_evaluated;
+  result.not_evaluated = not_evaluated_by(programs.rows(duty));
   std::vector<DutyProgram> all;  // programs that run
   for (std::size_t k = 0; k < duty.programs.size(); ++k)
     if (result.parts[k].repeats_per_hour > 0) all.push_back(duty.programs[k]);

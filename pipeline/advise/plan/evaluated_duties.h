@@ -68,7 +68,7 @@ struct DutyResult {
       outside{};                 ///< "hard (25 %)": programs with the share of their repeats that belongs to no round
   double past_hours = 0;         ///< hours of the history; 0: none
   std::vector<DutyMode> others;  ///< modes that are not included in the hours above
-  std::string not_evaluated;     ///< parts and modes without a life
+  std::string not_evaluated;     ///< parts and modes without a life in one of the programs
   Inspection inspection;         ///< checks of its jobs
   std::vector<std::string>
       warnings;  ///< "hard: smallest bend radius: ...": the warnings of these programs that make it unreliable
@@ -78,7 +78,8 @@ struct DutyResult {
 };
 
 /// Returns the modes under a duty. rows: (part) rows of its programs. Wear and damage add up. Rates and exponents are the same
-/// for all programs, so percentiles add up, too. A wall whose life is not credible is left out.
+/// for all programs, so percentiles add up, too. A wall is left out if its life is not credible in one of the
+/// programs that run.
 std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std::vector<RankingRow>& rows);
 
 /// Checks the programs before the study runs. Errors: InputError for a program that is no job of the study, for a study that

@@ -79,6 +79,11 @@ TEST_CASE("wear and used ratings of a duty's programs add up by their shares of 
   CHECK(modes[3].hours == Approx(3200));
   rows[0].unvalidated[2].bends_at_limit = 1e6;  // its law contradicts a published hose
   CHECK(other_modes(parts, rows).size() == 3);
+  // A gentle program, whose life of the wall is credible, does not predict that of the other.
+  rows[1].unvalidated.push_back(mode(UnvalidatedMode::wall, "hose 3", UnvalidatedMode::unknown, 2e5));
+  rows[1].unvalidated.back().bends_at_limit = 1e6;
+  CHECK(other_modes(parts, rows).size() == 3);
+  rows[1].unvalidated.pop_back();
   parts[0].share_of_time = 0;
   CHECK(std::isinf(other_modes(parts, rows)[1].hours));
 }

@@ -301,6 +301,18 @@ TEST_CASE("duties: a mode that only the changes of an order damage has a warning
   CHECK(evaluated(file, of.study, of.rows).at(0).changes.at(1) == 1);
 }
 
+TEST_CASE("duties: what one of the programs leaves out is not evaluated, each part once") {
+  Case of;
+  of.rows[0].not_evaluated = "power cable, connectors";
+  of.rows[1].not_evaluated = "twist of power cable, connectors";
+  UnvalidatedMode& wall = of.rows[1].unvalidated.emplace_back();
+  wall.mode = UnvalidatedMode::wall, wall.hours[1] = 100, wall.bends_at_limit = 1e6;
+  const DutyFile file =
+      of.file("  - {name: d, programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 20}]}\n");
+  CHECK(evaluated(file, of.study, of.rows).at(0).not_evaluated ==
+        "power cable, connectors, twist of power cable, hose's wall");
+}
+
 TEST_CASE("duties: a plant's table of lives is the same distribution, and holds what its dresspacks share once") {
   Case of;
   const DutyFile file = of.file(
