@@ -106,11 +106,14 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
       return log_mean(
           mapped(lives, [&](const LifeAt& at) { return log_normal_share((at.log_median - log_age) / at.spread); }));
     };
-    const double mean =
-        -sum_of(life.service, [&](const ServiceFactor& one) { return one.count * log_alive(one.log_age); });
-    double below = 0, term = std::exp(-mean);  // probability of fewer failures; probability of exactly this number
-    for (int n = 1; n <= failures; ++n) below += term, term *= mean / n;
-    chance.few += (below + term) / all, chance.many += (1 - below) / all;
+    const double mean = std::max(
+        0.0, -sum_of(life.service, [&](const ServiceFactor& one) { return one.count * log_alive(one.log_age); }));
+    const auto chance_of = [&](int n) {  // one exponential: that of -mean alone underflows for a mean of 745
+      return n == 0 ? std::exp(-mean) : std::exp(n * std::log(mean) - mean - std::lgamma(n + 1.0));
+    };
+    double below = 0;  // probability of fewer failures
+    for (int n = 0; n < failures; ++n) below += chance_of(n);
+    chance.few += (below + chance_of(failures)) / all, chance.many += (1 - below) / all;
     for (const auto& [bin, count] : entries)
       chance.reach += count * std::exp(log_alive(0.05 * double(bin))) / begun / all;
   }

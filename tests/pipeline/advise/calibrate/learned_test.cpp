@@ -541,5 +541,13 @@ TEST_CASE(
   CHECK(chance.few == Approx(std::exp(-mean) * (1 + mean)).epsilon(1e-9));
   CHECK(chance.many == Approx(1 - std::exp(-mean)).epsilon(1e-9));
   CHECK(chance.reach == Approx(alive(2000)).epsilon(0.06));  // ages in a group differ by 2.5 %, S by 2.3 times as much
+  // 1,000 failures where 1,000 are expected: half of the plants have fewer, half more, by the normal limit within 0.6/sqrt(1,000).
+  ObservedLife large;
+  large.variants = life.variants;
+  const double log_age = std::log(median);  // half live longer: each expects ln 2 failures
+  large.service = {{log_age, true, 1000}, {log_age, false, static_cast<int>(std::lround(1000 / std::log(2.0))) - 1000}};
+  const ServiceChance even = service_chance(large, {{median, 0, true}}, Eigen::MatrixXd::Zero(1, uncertain_count));
+  CHECK(even.few == Approx(0.5).margin(0.02));
+  CHECK(even.many == Approx(0.5).margin(0.02));
   CHECK(service_chance(life, {{3000, 0, false}}, Eigen::MatrixXd::Zero(1, uncertain_count)).reach == 1);
 }
