@@ -252,6 +252,9 @@ int plan(const PlanOptions& options) {
                                  found.effective_worlds, tables.begin()->second.worlds),
                      "learn from them first: dresslife calibrate");
   for (const Warning& warning : doubtful_hours(fleet, found, tables)) write_stderr(shown(warning.paragraph()));
+  if (!rule.knows_survivors)
+    for (const Warning& warning : doubtful_evidence(made.study, options.fleet))
+      write_stderr(shown(warning.paragraph()));
   for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.paragraph()));
   std::optional<Plan> other;
   std::string what_if;

@@ -11,6 +11,7 @@
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/job/job.h"
 #include "pipeline/life/likely_age.h"
 #include "pipeline/life/planning.h"
 
@@ -218,6 +219,22 @@ std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
                   percent_text(plan.reach_their_age), fleet.rows.size(), percent_text(usual_reach)),
       "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
       "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")};
+}
+
+std::vector<Warning> doubtful_evidence(const Study& study, const std::string& fleet) {
+  for (const StudyJob& one : study.jobs) {
+    if (!one.job || !one.job.with(Piece::rest).calibration) continue;
+    for (const LearnedFrom& from : one.job.with(Piece::rest).calibration->observations)
+      if (from.observed.starts_with("at least ") && from.observed.ends_with(" h"))  // observed_text() of run_out
+        return {warning_of(
+            WarningKind::calibration, fleet,
+            fmt::format(
+                "the calibration contains '{}' with {}, and the plan counts the hours of each dresspack in this table",
+                from.observation, from.observed),
+            "a run_out row of a dresspack that is in this table, too: then its hours count twice",
+            "calibrate without this row, or with the table of the maintenance system instead of it")};
+  }
+  return {};
 }
 
 }  // namespace dresslife::pipeline

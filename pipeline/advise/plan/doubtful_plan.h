@@ -9,6 +9,7 @@
 #include "pipeline/advise/plan/fleet.h"
 #include "pipeline/advise/plan/plan.h"
 #include "pipeline/base/warnings.h"
+#include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
 
@@ -22,5 +23,9 @@ std::vector<Warning> doubtful_hours(const Fleet& fleet, const Plan& plan,
 
 /// Returns a warning for dresspacks with an age that few new dresspacks reach (usual_reach). plan: plan of this fleet.
 std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan);
+
+/// Returns a warning if a calibration of the study contains hours without a failure, which the plan may count again as the age
+/// of a dresspack. fleet: its file.
+std::vector<Warning> doubtful_evidence(const Study& study, const std::string& fleet);
 
 }  // namespace dresslife::pipeline

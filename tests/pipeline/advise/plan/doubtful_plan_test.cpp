@@ -1,6 +1,7 @@
 // Plausible mistakes in fleets and duties: a value that another unit explains is warned of with a remedy.
 #include "pipeline/advise/plan/doubtful_plan.h"
 
+#include "pipeline/job/job.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -117,6 +118,18 @@ TEST_CASE("fleets: numbers that another unit or a slip explains are warned of") 
         {"name,duty,installed,planned_cost,unplanned_cost\na,d,2026-01-05,1.2,9.5\nb,d,2026-01-05,1200,9500\n",
          "planned_cost of 'a' is 1.2, and of 'b' 1200", "planned_cost: 1200"}})
     check_one(doubts_of_fleet(one.text), one, "fleet.csv:");
+}
+
+TEST_CASE("plans: hours without a failure in a calibration are doubtful, other observations are not") {
+  const auto doubts = [](const std::string& observed) {
+    Job job;
+    job.calibration.emplace().observations = {{"R17", observed, "", "", ""}};
+    return lines_of(doubtful_evidence({"s", {{"a", std::make_shared<const Job>(job), ""}}, Keep::all}, "fleet.csv"));
+  };
+  for (const char* other : {"3,000 h", "at most 3,000 h", "at least 3,000", "2 of 9 failed"})
+    CHECK(doubts(other).empty());
+  check_one(doubts("at least 3,000 h"),
+            {"", "the calibration contains 'R17' with at least 3,000 h", "calibrate without this row"}, "fleet.csv");
 }
 
 }  // namespace dresslife::pipeline
