@@ -23,7 +23,8 @@ constexpr double point_distance = 0.01;  // largest distance between points of a
 constexpr double point_turn = 0.035;     // largest rotation between points [rad]
 constexpr double point_change = 0.1;     // largest change of any joint between points [rad]
 constexpr double shortest = 1e-4;        // share of a path that is not divided further
-constexpr double jump = 0.5;  // change of a joint between such points at which the path is not continuous [rad]
+constexpr double jump = 0.5;       // change of a joint between such points at which the path is not continuous [rad]
+constexpr double same_end = 1e-6;  // [rad]: 3 um of the tool at 3 m, less than any robot repeats
 constexpr std::size_t most_moves = 200'000;  // in one repeat: five hours at ten moves per second
 constexpr int samples = 24;                  // points on a joint move for the tool's speed
 
@@ -169,10 +170,11 @@ class Layout {
   /// of: the axis outside of its limits, or a text that targets with one cause share; targets with the same one are reported
   /// together, by the target with the largest excess [rad]. Empty: the reason.
   bool refuse(const MotionStep& step, int line, const std::string& reason, const std::string& of = "",
-              double excess = 0) {
+              double excess = 0, const std::string& own_remedy = "") {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     const std::string remedy =
-        lacks
+        !own_remedy.empty() ? own_remedy
+        : lacks
             ? "check target, tool, work object and configuration; the step also names external axes that "
               "robot.external_axes does not have: without them the robot's base is elsewhere"
             : "check target, tool, work object, configuration and the place of the robot's base; or name the robot of the program";
@@ -258,6 +260,7 @@ class Layout {
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
         bend(step, line, move);
         if (!step.circle_joints.empty()) move.path->bend_beside(circle_point(step, tooling, external));
+        check_end(step, line, move);
       }
     } else if (!reach(step, line, external, move)) {
       return;
@@ -322,6 +325,22 @@ class Layout {
                     fmt::format("is reached along its path in configuration {}, not in {}",
                                 in_words(arm_.configuration(move.to, configuration->kind)), in_words(*configuration)));
     return true;
+  }
+
+  /// Refuses a path to joint angles that ends in another configuration or turn. With a singular wrist, axes 4 and 6 share a
+  /// rotation: then the robot stops at the end of the path, and lay_path adds a joint move to the target.
+  void check_end(const MotionStep& step, int line, Move& move) {
+    const VectorXd given = move.to;
+    follow(move);
+    long axis = 0;
+    const double off = (move.to - given).cwiseAbs().maxCoeff(&axis);
+    if (off > jump)
+      refuse(step, line,
+             fmt::format("is reached along its path with {} at {:.4g} deg, not {:.4g}", axes_[axis].name,
+                         move.to[axis] / degree, given[axis] / degree),
+             "another end of the path", off, "write the angles at which the path ends, or a joint move to the target");
+    if (off > same_end) stops_.push_back(moves_.size());
+    move.to = given;
   }
 
   /// Finds the joint angles at the end of a path by following it.
@@ -562,6 +581,11 @@ class Layout {
       u = next->first;
       last_ = next->second;
     }
+    if (move.cut_behind > 0 || (move.to - last_).lpNorm<Eigen::Infinity>() < same_end) return;
+    if (!made_.legs.empty()) made_.legs.back().zone = 0;
+    chain_ = 0;
+    add_leg(last_, move.to, 0, 0, {move.step, move.line}, 0);
+    last_ = move.to;
   }
 
   /// Uses for a joint move the tool's distance and rotation in its fastest part, so that no part is too fast.

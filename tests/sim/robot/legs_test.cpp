@@ -293,6 +293,39 @@ TEST_CASE("legs: a line must end in the configuration that its program says") {
                                     ", not in " + other.text()));
 }
 
+TEST_CASE("legs: a line to joint angles ends at them, or is refused if it leads to another turn or configuration") {
+  pipeline::Robot robot = arm();
+  robot.joints[5].lower = -7, robot.joints[5].upper = 7;
+  const auto line = [&](const std::vector<double>& from, const std::vector<double>& target) {
+    pipeline::MotionStep start, end;
+    start.joints = from, end.joints = target;
+    end.path = PathKind::linear;
+    return JointMotion(motion({start, end}), robot);
+  };
+  CHECK_THROWS_WITH(  // 3.4 - 2 pi = -2.883
+      line({0, 0, 0, 0, 0.5, 0}, {0.05, 0.05, 0, 0, 0.5, 3.4}),
+      Catch::Contains("target of 'move 2' is reached along its path with axis_6 at -165.2 deg, not 194.8"));
+  CHECK_THROWS_WITH(line({0, 0, 0, -1.6, 0.5, 0}, {0.05, 0.05, 0, pi - 1.6, -0.5, pi}),
+                    Catch::Contains("target of 'move 2' is reached along its path with axis_"));
+  using Ends = std::pair<std::vector<double>, std::vector<double>>;
+  const Ends turned = {{0, 0, 0, 0, 0.5, 2}, {0.05, 0.05, 0, 0, 0.5, 3.4}},
+             straight_wrist = {{0, 0, 0, 0.3, 0.5, 0}, {0, 0, 0, 0, 0, 0.3}};
+  for (const auto& [from, target] : {turned, straight_wrist}) {
+    const JointMotion run = line(from, target);
+    VectorXd before = run.position(0);
+    double largest = 0, least = 1;
+    for (double t = 0; t < run.duration() + 0.01; t += 0.001) {
+      const VectorXd now = run.position(t);
+      least = std::min(least, now[4]);
+      largest = std::max(largest, (now - before).lpNorm<Eigen::Infinity>());
+      before = now;
+    }
+    CHECK(largest <= 0.001 * 4 + rounding);  // 4 rad/s
+    CHECK(least >= -rounding);               // the wrist does not turn over
+    CHECK((before - Eigen::Map<const VectorXd>(target.data(), 6)).lpNorm<Eigen::Infinity>() < rounding);
+  }
+}
+
 TEST_CASE("legs: a corner between an axis move and a line stays within its zone") {
   const pipeline::Robot robot = arm();
   const InverseKinematics kinematics(robot);
