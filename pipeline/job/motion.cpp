@@ -245,9 +245,13 @@ void check_held_joint(const Motion& motion, const Robot& robot) {
   if (motion.hold_joint.empty()) return;
   if (!motion.needs_robot())
     throw InputError(motion.where, "hold_joint is given, and no robot moves", "leave hold_joint out");
-  if (!find_in(robot.joints, &Joint::name, motion.hold_joint))
-    throw InputError(motion.where, fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
-                     fmt::format("name one of {}", joined(mapped(robot.joints, &Joint::name), ", ")));
+  const std::vector<Joint> axes = filtered(robot.joints, [](const Joint& joint) { return joint.follows.empty(); });
+  if (find_in(axes, &Joint::name, motion.hold_joint)) return;
+  const Joint* const held = find_in(robot.joints, &Joint::name, motion.hold_joint);
+  throw InputError(motion.where,
+                   held ? fmt::format("hold_joint: '{}' follows {} and cannot be held alone", held->name, held->follows)
+                        : fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
+                   fmt::format("name one of {}", joined(mapped(axes, &Joint::name), ", ")));
 }
 
 }  // namespace

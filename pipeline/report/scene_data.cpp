@@ -56,7 +56,8 @@ class Scene {
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
       points.push_back(Json{{"name", point.name}}.add(place(point.link, point.position, point.direction)));
-    return {{"joints", mapped(setup_.robot.joints, &Joint::name)},
+    return {{"joints", mapped(filtered(setup_.robot.joints, [](const Joint& joint) { return joint.follows.empty(); }),
+                              &Joint::name)},
             {"links", links},
             {"cell", shapes(setup_.cell)},
             {"floor", setup_.simulation.floor},

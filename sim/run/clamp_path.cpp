@@ -360,9 +360,9 @@ void RobotPath::doubt_frame(const pipeline::Robot& robot, const std::string& key
 }
 
 void RobotPath::hold_joint(const pipeline::Setup& setup) {
-  const std::vector<pipeline::Joint>& joints = setup.robot.joints;
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    if (joints[j].name == setup.motion.hold_joint) motion_.hold(j);
+  const std::vector<Axis> axes = axes_of(setup.robot);
+  for (std::size_t k = 0; k < setup.robot.axes(); ++k)
+    if (axes[k].name == setup.motion.hold_joint) motion_.hold(k);
 }
 
 void RobotPath::add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing) {

@@ -461,17 +461,18 @@ class QuickChecks {
   void add_winding(std::vector<pipeline::Warning>& all) const {
     if (!robot_) return;
     const Eigen::VectorXd start = robot_->motion().position(0), mounting = robot_->mounting_pose();
-    for (std::size_t axis = 0; axis < setup_.robot.joints.size() && static_cast<long>(axis) < start.size(); ++axis) {
+    const std::vector<Axis> axes = axes_of(setup_.robot);
+    for (std::size_t axis = 0; axis < setup_.robot.axes(); ++axis) {
       const double turn = start[static_cast<long>(axis)] - mounting[static_cast<long>(axis)];
       if (std::abs(turn) < 179.99 * degree) continue;  // half a turn that is rounded
       all.push_back(pipeline::warning_of(
           WarningKind::twist, "",
           fmt::format(
               "{} turns by {:.0f} deg (limit less than 180 deg) from routing.mounting_pose_deg to the first target of the program",
-              setup_.robot.joints[axis].name, turn / degree),
+              axes[axis].name, turn / degree),
           "the pose in which the dresspack was clamped is a turn away from the program",
           fmt::format("routing.mounting_pose_deg with {:.1f} for {}, or leave it out: then the first target counts",
-                      start[static_cast<long>(axis)] / degree, setup_.robot.joints[axis].name)));
+                      start[static_cast<long>(axis)] / degree, axes[axis].name)));
     }
   }
 

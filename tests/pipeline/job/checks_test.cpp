@@ -73,6 +73,19 @@ TEST_CASE("checks: a motion has exactly one source and begins with a move") {
     }
 }
 
+TEST_CASE("checks: a joint that follows another one cannot be held") {
+  Robot robot = two_axes();
+  robot.joints[0].name = "lift", robot.joints[1].name = "rod";
+  robot.joints[1].follows = "lift";
+  Motion motion;
+  motion.steps.emplace_back().joints = {0.1};
+  motion.hold_joint = "rod";
+  CHECK_THAT(message_of([&] { check_motion(motion, robot); }),
+             Catch::Contains("hold_joint: 'rod' follows lift and cannot be held alone; name one of lift"));
+  motion.hold_joint = "lift";
+  CHECK(message_of([&] { check_motion(motion, robot); }).empty());
+}
+
 TEST_CASE("checks: of a move's speeds and zones there is at most one of each") {
   for (int given = 0; given < 8; ++given) {
     MotionStep speed = move(), zone = move();

@@ -128,6 +128,21 @@ pipeline::Job turning_job() {
   return job;
 }
 
+TEST_CASE("clamp path: the joint that is held is the named one, also behind a joint that follows another") {
+  pipeline::Job job = turning_job();
+  std::vector<pipeline::Joint> joints(4, job.robot.joints[0]);
+  joints[1].name = "rod", joints[2].name = "arm", joints[3].name = "hand";
+  joints[1].follows = "table";
+  job.robot.joints = joints;
+  job.robot.links = {{"base", {}}, {"table", {}}, {"rod", {}}, {"arm", {}}, {"hand", {}}};
+  job.motion.steps[0].joints = {0, 0, 0};
+  job.motion.steps[1].joints = {1, 1, 1};
+  job.motion.hold_joint = "arm";
+  const RobotPath path(job);
+  CHECK(path.at(0).joints == Eigen::Vector3d(0, 0.5, 0));
+  CHECK((path.at(path.duration()).joints - Eigen::Vector3d(1, 0.5, 1)).norm() < rounding);
+}
+
 TEST_CASE("clamp path: the tool clamp goes round with its link for more than two turns without a jump") {
   const RobotPath path(turning_job());
   CHECK(path.end_links() == std::vector<int>{0, 1});
