@@ -273,7 +273,7 @@ std::vector<Thread> Screener::Parts::threads(const pipeline::Setup& setup, const
       for (const RoutedRing& ring : rings)
         if (ring.span == k) {
           add({ring.ring.link, ring.ring.position, ring.ring.direction, {}, ring.ring.where});
-          thread.rings_save += 2 * ring.ring.radius;
+          thread.rings_save += 2 * ring.clearance;
         }
       const pipeline::Clamp& end = last ? *routing.tool_clamp : routing.clamps[between].clamp;
       add(end);

@@ -87,7 +87,7 @@ std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup) {
       const auto before = std::ranges::count_if(routing.clamps, [&](const pipeline::IntermediateClamp& clamp) {
         return ring.at_length && clamp.at_length <= *ring.at_length;
       });
-      routed.push_back({ring, first_span + static_cast<int>(before)});
+      routed.push_back({ring, first_span + static_cast<int>(before), ring.radius - mounted.dresspack.diameter / 2});
     }
     first_span += static_cast<int>(routing.clamps.size()) + 1;
   }
@@ -104,7 +104,7 @@ std::vector<double> shortest_ways(const pipeline::Setup& setup, const Rod& rod, 
     for (size_t r = 0; r < rings.size(); ++r)
       if (routed[r].span == k) {
         through.push_back(rings[r].position);
-        saved += 2 * routed[r].ring.radius;
+        saved += 2 * routed[r].clearance;
       }
     ways.push_back(shortest_way(rod, clamps, k, through) - saved);
   }

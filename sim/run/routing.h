@@ -43,6 +43,7 @@ std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup);
 struct RoutedRing {
   const pipeline::GuideRing& ring;
   int span;
+  double clearance;  ///< between the hose in its middle and the ring [m]
 };
 std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup);
 /// Returns, (span), the length of the straight lines from end to end through the rings' centres, minus the largest saving by an
