@@ -215,7 +215,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
   if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
   summary.repeats = world ? 2 : 1;
   if (!world) world = world_at(start_, path_->at(0), summary.time_step);
-  for (bool first = true;; first = false, ++summary.repeats) {  // (R8)
+  for (bool first = true;; first = false) {  // (R8)
     const RodState begin = world->state();
     if (!first && sinks.begin) sinks.begin(summary.repeats);
     Repeat repeat(*this, summary.time_step);
@@ -235,10 +235,14 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
       if (std::abs(step - summary.time_step) > same_step) {
         summary.time_step = step;
         world = world_at(summary.returns ? world->state() : start_, path_->at(0), step);
+        summary.repeats += summary.returns;  // without a return the motion begins again at its start
         continue;
       }
     }
-    if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
+    if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) {
+      ++summary.repeats;
+      continue;
+    }
     if (sinks.wanted == Wanted::everything) summary.curvature_error = repeat.error.estimate();
     summary.curvature = repeat.checks.curvature();
     summary.twist = repeat.checks.twist();
@@ -352,7 +356,7 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
 }
 
 std::string repeats_note(const RunSummary& summary) {
-  if (summary.repeats < 2 || (summary.returns && !summary.periodic)) return "";
+  if (summary.repeats < 2 || !summary.periodic) return "";
   return fmt::format("note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
                      summary.repeats, 1e3 * summary.distance);
 }

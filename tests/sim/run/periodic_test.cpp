@@ -92,6 +92,16 @@ TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and
                  Catch::Contains("simulation.periodic_tolerance_mm"));
 }
 
+TEST_CASE("periodic: a motion that does not return runs once, also if its time step is chosen") {
+  pipeline::Job job = simple_job();
+  job.motion.steps.pop_back();
+  job.simulation.choose_time_step = true;
+  const RunSummary summary = Simulation(job).run({[](const Sample&) {}});
+  REQUIRE(std::abs(summary.time_step - first_step(job.simulation.sample_rate)) > 1e-4);  // a second run with this step
+  CHECK(summary.repeats == 1);
+  CHECK(repeats_note(summary).empty());
+}
+
 TEST_CASE("periodic: one that only rests is led in, then found periodic at once") {
   pipeline::Job job = simple_job();
   job.motion.steps.push_back(dwell_for(20));
