@@ -52,7 +52,7 @@ RodState with_half_step(const RodState& state, const RodState& before) {
 
 std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int steps) {
   const int length = std::min(steps, static_cast<int>(std::lround(window_seconds / h)));
-  if (length < 2) return {};
+  if (length < 3) return {};  // a window begins at step 1 at the earliest, so that fewer have no second half
   const int wanted = std::max(1, static_cast<int>(window_share * steps / length));
   const std::vector<double> squares = liveliness(path, h, steps);
   std::vector<std::pair<double, int>> candidates;  // (sum over the window, its first step)
@@ -64,7 +64,7 @@ std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int step
     const bool apart =
         std::ranges::all_of(windows, [&, b = begin](const StepWindow& w) { return std::abs(w.begin - b) >= length; });
     if (apart && static_cast<int>(windows.size()) < wanted)
-      windows.push_back({begin, begin + length / 2, begin + length});
+      windows.push_back({begin, std::max(begin + length / 2, 2), begin + length});
   }
   return windows;
 }

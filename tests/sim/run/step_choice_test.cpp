@@ -124,4 +124,17 @@ TEST_CASE("step choice: the lively windows lie where the clamps accelerate") {
   CHECK(windows[0].compare - windows[0].begin == windows[0].end - windows[0].compare);
 }
 
+TEST_CASE("step choice: also in the shortest motions the compared states lie behind the common begin") {
+  const RobotPath path(simple_job());
+  for (int steps = 0; steps < 12; ++steps) {
+    CAPTURE(steps);
+    const auto windows = lively_windows(path, 0.005, steps);
+    CHECK(windows.empty() == (steps < 3));
+    for (const StepWindow& window : windows) {
+      CHECK(window.compare > std::max(window.begin, 1));  // StepError begins at step 1 or later
+      CHECK(window.compare < window.end);
+    }
+  }
+}
+
 }  // namespace
