@@ -451,7 +451,10 @@ Equilibrium settle(World& world, std::span<const Frame> links, int steps, double
   double energy_before = 0, speed_before = 0;
   const double most_work = world.work() + settling_work * steps * rod.segments();
   for (result.iterations = 1; result.iterations <= steps && world.work() <= most_work; ++result.iterations) {
-    if (!world.advance(clamps, links).finite) return result;
+    if (!world.advance(clamps, links).finite) {
+      result.residual = INFINITY;
+      return result;
+    }
     double fastest = 0;
     for (const Vector3& v : world.state().velocity) fastest = std::max(fastest, v.norm());
     for (const Travel& travel : world.state().travel) fastest = std::max(fastest, std::abs(travel.speed));

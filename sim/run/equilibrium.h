@@ -66,7 +66,8 @@ std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFr
 
 /// Lets the chain come to rest in the world, among its obstacles, by time steps; velocities are set to 0 whenever
 /// the kinetic energy decreases. Any number of spans; clamps and links do not move. `iterations` is the number of steps, fewer
-/// than `steps` if hundreds of contacts make them slow; `residual` is the largest remaining speed [m/s].
+/// than `steps` if hundreds of contacts make them slow; `residual` is the largest remaining speed [m/s]; infinite: the
+/// simulation broke down.
 Equilibrium settle(World& world, std::span<const Frame> links = {}, int steps = 20000, double speed = 1e-4);
 
 }  // namespace dresslife::sim

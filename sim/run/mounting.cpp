@@ -411,9 +411,10 @@ class Mounting {
     if (found.status != EquilibriumStatus::converged && !(found.residual < near_rest)) {
       const std::size_t contacts = world->contacts().size();
       const std::string what =
-          fmt::format("{} (it still moves at {:.3g} m/s{})",
-                      rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
-                      found.residual, contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
+          fmt::format("{} ({}{})", rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
+                      std::isinf(found.residual) ? "the simulation breaks down"
+                                                 : fmt::format("it still moves at {:.3g} m/s", found.residual),
+                      contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
       const std::string warmth = warmth_words(setup_);
       RoutingRefusal refusal(
           routing(0).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, 0), what),

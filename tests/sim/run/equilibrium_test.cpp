@@ -179,6 +179,16 @@ TEST_CASE("a hose settles on an obstacle that stands in its equilibrium") {
   CHECK(carried > 1);
 }
 
+TEST_CASE("a chain whose simulation breaks down has no small residual") {
+  const Rod rod(hose(40));
+  RodState state = find_equilibrium(rod, {planar_frame(0, 1, 0), planar_frame(1.4, 1, 0)}).state;
+  state.velocity[20].z() = NAN;
+  World world(rod, {}, state);
+  const Equilibrium broken = settle(world);
+  CHECK(broken.status == EquilibriumStatus::not_converged);
+  CHECK(std::isinf(broken.residual));
+}
+
 TEST_CASE("a leaning arch rests on either side, and within each shape the bend radius converges with the segments") {
   const auto frame = [](const Vector3& position, const Vector3& direction) {
     return Frame{position, turn_between(Vector3::UnitZ(), direction.normalized())};
