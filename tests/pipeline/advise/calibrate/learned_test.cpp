@@ -103,7 +103,7 @@ TEST_CASE("learned: a life counts from the median of all rests, of which the job
   constexpr double slope = 0.4;  // [decades]
   const auto at_rest = [&](double mean, double median = 5) {
     LifeResponse response = straight_response(0, 0, 0, median);
-    for (const double z : {-2.0, 2.0}) {
+    for (const double z : {-5.0, 5.0}) {  // beyond all values: lives end at the outermost rests
       response.points.emplace_back()[rest] = z, response.inside.push_back(Inside::as_is);
       response.worst_life.insert(response.worst_life.end(), response.strength.size(),
                                  response.worst_life.front() + slope * z);

@@ -171,8 +171,8 @@ TEST_CASE("duties: damage at other rests is compared with that at the median of 
   constexpr std::size_t rest = index_of(Uncertain::rest);
   Case of;
   LifeResponse lead = response_of("lead", 1e5);
-  // 5, 5.5 and 6.5 decades at 0, the mean, and one deviation above it; 4.75 at one below
-  for (const auto& [z, decades] : {std::pair(-1.0, -0.5), {1.0, 1.0}}) {
+  // 5.5 and 6.5 decades at the mean and one deviation above it; 4.75 at one below
+  for (const auto& [z, decades] : {std::pair(-1.0, -0.5), {2.0, 2.0}}) {
     lead.points.emplace_back()[rest] = z, lead.inside.push_back(Inside::as_is);
     for (std::size_t k = 0; k < lead.strength.size(); ++k) lead.worst_life.push_back(lead.worst_life[k] + decades);
   }
