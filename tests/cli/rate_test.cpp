@@ -150,13 +150,14 @@ TEST_CASE("rate: warnings of the rigs' jobs are printed, except those of a bend 
   const auto warnings = [&](const std::string& of) {
     std::string words = must_run(scratch, "dresslife", "rate " + of + " --quiet").err;
     CHECK(words.find("smallest bend radius") == std::string::npos);
-    CHECK(words.find("torsion: warning: 'control_cable 1' is pulled with") != std::string::npos);
     return words;
   };
   const std::string chain =
       "energy_chain: warning: a bend contains few turns of control_cable/layer 1/core (lay 150 mm)";
   CHECK(warnings("long_lay.yaml").find(chain) != std::string::npos);
-  CHECK(warnings("control_cable").find("few turns") == std::string::npos);
+  const std::string shipped = warnings("control_cable");
+  CHECK(shipped.find("torsion: warning: 'control_cable 1' is pulled with") != std::string::npos);
+  CHECK(shipped.find("few turns") == std::string::npos);
 }
 
 TEST_CASE("rate: in torsion with a free lower end a heavier weight shortens the life") {
