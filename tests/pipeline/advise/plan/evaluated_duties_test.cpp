@@ -132,8 +132,8 @@ TEST_CASE("duties: every number of an evaluation follows from the damage at each
   for (std::size_t k = 0; k < 3; ++k) {
     const DutyPart& part = duty.parts[k];
     INFO(part.job);
-    const auto hours_at = [&](double factor) {
-      std::vector<double> changed = rates;
+    const auto hours_at = [&, now = rates](double factor) {
+      std::vector<double> changed = now;
       changed[k] *= factor;
       return ByHand(of.programs, changed).hours();
     };
