@@ -31,13 +31,20 @@ std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
 
 std::vector<bool> joints_between_clamps(const pipeline::Setup& setup, std::size_t dresspack) {
   const pipeline::Routing& routing = setup.dresspacks[dresspack].routing;
-  std::vector<bool> between(setup.robot.joints.size(), false);
+  const std::vector<pipeline::Joint>& joints = setup.robot.joints;
+  std::vector<std::size_t> axis(joints.size());  // (joint) the driven axis that moves it
+  for (std::size_t k = 0, next = 0; k < joints.size(); ++k)
+    if (joints[k].follows.empty()) axis[k] = next++;
+  for (std::size_t k = 0; k < joints.size(); ++k)
+    if (!joints[k].follows.empty())
+      axis[k] = axis[std::ranges::find(joints, joints[k].follows, &pipeline::Joint::name) - joints.begin()];
+  std::vector<bool> between(setup.robot.axes(), false);
   if (!routing.base_clamp || !routing.tool_clamp) return between;
   const std::size_t one = link_index(setup.robot, routing.base_clamp->link),
                     other = link_index(setup.robot, routing.tool_clamp->link);
-  const std::size_t last = std::min(std::max(one, other), between.size());
+  const std::size_t last = std::min(std::max(one, other), joints.size());
   for (std::size_t joint = std::min(one, other); joint < last; ++joint)
-    between[joint] = true;  // joint k moves link k + 1
+    between[axis[joint]] = true;  // joint k moves link k + 1
   return between;
 }
 

@@ -29,14 +29,15 @@ struct Setup;
 
 namespace dresslife::fatigue {
 
-/// Returns whether each joint lies between the links of the two clamps, (joint). Empty for a job without a robot.
+/// Returns whether each driven axis moves a joint between the links of the two clamps, (axis). A joint that follows another one
+/// counts for the axis that it follows. Empty for a job without a robot.
 std::vector<bool> joints_between_clamps(const pipeline::Setup& setup, std::size_t dresspack = 0);
 
 /// The fitted function (F19).
 class StrainOfJoints {
  public:
-  /// position: (sample, joint) [rad]. known: samples with known strain, and the strain. between: (joint) joints that may
-  /// contribute; joints that stand still do not. Precondition: at least one sample, and one known strain.
+  /// position: (sample, joint) of the driven joints [rad]. known: samples with known strain, and the strain. between: (joint) joints
+  /// that may contribute; joints that stand still do not. Precondition: at least one sample, and one known strain.
   StrainOfJoints(std::span<const double> position, std::span<const Reversal> known, const std::vector<bool>& between);
 
   std::size_t joints() const { return scale_.size(); }

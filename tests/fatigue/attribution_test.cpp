@@ -181,6 +181,19 @@ TEST_CASE("attribution: only joints between the clamps' links bend the dresspack
   CHECK(joints_between_clamps(job) == std::vector<bool>(6, false));
 }
 
+TEST_CASE("attribution: a joint that follows another one counts for its axis") {
+  pipeline::Job job;
+  job.robot.joints.resize(4);
+  for (int k = 0; k <= 4; ++k) job.robot.links.push_back({"link_" + std::to_string(k), {}, {}, {}});
+  for (int k = 0; k < 4; ++k) job.robot.joints[k].name = "joint_" + std::to_string(k + 1);
+  job.robot.joints[2].follows = "joint_1";
+  job.dresspacks[0].routing.base_clamp.emplace().link = "link_2";
+  job.dresspacks[0].routing.tool_clamp.emplace().link = "link_3";
+  CHECK(joints_between_clamps(job) == std::vector<bool>{true, false, false});
+  job.dresspacks[0].routing.tool_clamp->link = "link_4";
+  CHECK(joints_between_clamps(job) == std::vector<bool>{true, false, true});
+}
+
 TEST_CASE("attribution: segments count for the nearest clamp") {
   const std::vector<double> length{0.1, 0.2, 0.3, 0.4}, damage{1, 2, 4, 8};
   // centres at 0.05, 0.2, 0.45 and 0.8 of 1 m
