@@ -459,9 +459,7 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles, co
   const auto position = c.strain.read<double>(joints);
   const StrainOfJoints surface(position, known, between);
   const JointDamage by_joint = damage_by_joint(cycles, surface, c.step, c.step_text.size());
-  std::vector<std::string> names;
-  for (const pipeline::Joint& joint : c.job.robot.joints)
-    if (joint.follows.empty()) names.push_back(joint.name);
+  std::vector<std::string> names = c.job.robot.axis_names();
   names.push_back("carrying");
   c.life.set_axis("cause", names.size());
   put(c.life, "/joint/name", names);

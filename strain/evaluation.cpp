@@ -114,8 +114,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
                static_cast<std::size_t>(settings.cable_elements), place.known_ends, place.relief_stiffness,
                place.stiffness_factor},
-              lengths_, arcs_, samples, scratch),
-      net_bend_(construction, means_.plan(), lengths_, arcs_, clamped(place, lengths_)) {
+              lengths_, arcs_, samples, scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -215,8 +214,12 @@ void Evaluation::repeat() {
   meant_ = 0;
 }
 
+void Evaluation::record_net_bend() {
+  net_bend_.emplace(construction_, means_.plan(), lengths_, arcs_, clamped(place_, lengths_));
+}
+
 void Evaluation::add_bends(const DeformationHistory& block) {
-  net_bend_.add(block);
+  if (net_bend_) net_bend_->add(block);
   bends_.resize(2 * lengths_.size());
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
     const DeformationColumns here = block.columns(i);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -157,8 +158,10 @@ class Evaluation {
     bool straight = false, own_lay = false;
   };
   const BendScale& evening() const { return evening_; }
-  /// Returns the strain that bends of incomplete turns would cause, and that a layer which slides over its pitch lacks.
-  NetBend::Largest net_bend() const { return net_bend_.largest(); }
+  /// Returns the strain that bends of incomplete turns would cause, and that a layer which slides over its pitch lacks. Call
+  /// record_net_bend() before the first sample.
+  NetBend::Largest net_bend() const { return net_bend_->largest(); }
+  void record_net_bend();
 
   /// Second pass. Evaluates segment `segment` of the span, whose history is `row` of `history`. Call in the order of
   /// the segments.
@@ -166,8 +169,8 @@ class Evaluation {
 
   /// Returns whether friction holds any strain inside the cables.
   bool rubs_inside() const;
-  /// Returns the sites of which one can have the largest damage of the segment among the wires of one material in the components
-  /// of one name, whatever the other inputs.
+  /// Returns the sites that can have the largest damage of the segment among the wires of one material in the components of one
+  /// name, whatever the other inputs.
   /// Precondition: evaluate() was called for this segment last.
   const std::vector<Site>& likely_worst() const { return likely_; }
   /// Returns the likely worst sites at a rest that is not the job's own. Scans only the cables that bend most. Precondition: find_bent().
@@ -338,7 +341,7 @@ class Evaluation {
     double variance() const { return (squares - (sum[0] * sum[0] + sum[1] * sum[1]) / count) / count; }
   };
   std::vector<Variance> bends_;  ///< (segment, 2) curvature, and its difference to that of the next segment
-  NetBend net_bend_;
+  std::optional<NetBend> net_bend_;
   bool first_pass_ended_ = false;
   BendScale evening_;
   std::size_t meant_ = 0;                ///< number of samples that the means have received

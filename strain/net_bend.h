@@ -3,8 +3,8 @@
 // In a bend of whole turns a helix is as often on the outer as on the inner side, so its path keeps its length. A bend that ends
 // within a turn lengthens or shortens the path. Without friction the whole length takes the difference,
 //     net = (R cos^2(alpha) / L) x (sum over the segments of curvature x length x exp(-i phase)),
-// whose real part, turned by its phase, is the strain of each part of the layer (L: length from clamp to clamp). A layer that slides over its pitch (W10) lacks
-// this strain. With a sharp bend it is at most R kappa p / (pi L) for a lay length p. In a smooth bend of many turns it is nearly zero.
+// L: length from clamp to clamp. Its real part, turned by the phase of a part, is the strain of this part. A layer that slides over
+// its pitch (W10) lacks this strain. With a sharp bend it is at most R kappa p / (pi L) for a lay length p. In a smooth bend of many turns it is nearly zero.
 #pragma once
 
 #include <array>

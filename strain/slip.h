@@ -13,11 +13,12 @@
 // `friction` keeps the mean of `free`. The deviation from it builds up to a cap (strain/friction.h). Bending and torsion of a
 // component per path length do not change.
 //
-// The cap follows from the length over which the deviation evens out (evening_length): one wave about the bent cable, at most the
-// length between the clamps. Nested lays of opposite hands make a long wave. The formula assumes a bend that is at least as long as this wave. Comparison with
-// wires that slide as lines through a bend that changes over the wave length L (friction_lines_test.cpp): with an evening
-// length of L/4 friction holds 1.0 to 1.2 times the cap, for glued strains up to four times the cap. Near L it holds up to 2.5
-// times the cap, because the strain then does not even out to the mean of this place. The cap counts with at most L.
+// The cap follows from the length over which the deviation evens out (evening_length): one wave about the bent cable, at most
+// the length between the clamps. Nested lays of opposite hands make a long wave. The formula assumes a bend that is at least
+// as long as this wave. Comparison with wires that slide as lines through a bend that changes over the wave length L
+// (friction_lines_test.cpp): with an evening length of L/4 friction holds 1.0 to 1.2 times the cap, for glued strains up to
+// four times the cap. Near L it holds up to 2.5 times the cap, because the strain then does not even out to the mean of this
+// place. The cap counts with at most L.
 #pragma once
 
 #include <vector>

@@ -653,6 +653,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       strain.final_name()};
   Evaluations all(job, reader, samples, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
+  for (const auto& evaluation : evaluations) evaluation->record_net_bend();
   std::list<Evaluations> otherwise_laid;
   Variations variations(
       job, evaluations, shortening,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/base/joined.h"
@@ -245,13 +246,13 @@ void check_held_joint(const Motion& motion, const Robot& robot) {
   if (motion.hold_joint.empty()) return;
   if (!motion.needs_robot())
     throw InputError(motion.where, "hold_joint is given, and no robot moves", "leave hold_joint out");
-  const std::vector<Joint> axes = filtered(robot.joints, [](const Joint& joint) { return joint.follows.empty(); });
-  if (find_in(axes, &Joint::name, motion.hold_joint)) return;
+  const std::vector<std::string> axes = robot.axis_names();
+  if (std::ranges::find(axes, motion.hold_joint) != axes.end()) return;
   const Joint* const held = find_in(robot.joints, &Joint::name, motion.hold_joint);
   throw InputError(motion.where,
                    held ? fmt::format("hold_joint: '{}' follows {} and cannot be held alone", held->name, held->follows)
                         : fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
-                   fmt::format("name one of {}", joined(mapped(axes, &Joint::name), ", ")));
+                   fmt::format("name one of {}", joined(axes, ", ")));
 }
 
 }  // namespace

@@ -11,6 +11,13 @@ std::size_t Robot::axes() const {
       std::ranges::count_if(joints, [](const Joint& joint) { return joint.follows.empty(); }));
 }
 
+std::vector<std::string> Robot::axis_names() const {
+  std::vector<std::string> names;
+  for (const Joint& joint : joints)
+    if (joint.follows.empty()) names.push_back(joint.name);
+  return names;
+}
+
 void describe(Fields& f, Joint& joint) {
   f.place(joint.where);
   f.text("name", joint.name, Need::required, "The name of the joint.");

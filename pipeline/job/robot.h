@@ -71,7 +71,8 @@ struct Robot {
   std::vector<Link> links;                          ///< joints + 1
   std::vector<MountingPoint> mounting_points;
 
-  std::size_t axes() const;  ///< Returns the number of joints that follow no other joint.
+  std::size_t axes() const;                     ///< Returns the number of joints that follow no other joint.
+  std::vector<std::string> axis_names() const;  ///< Returns their names.
 };
 
 void describe(Fields& f, Joint& joint);

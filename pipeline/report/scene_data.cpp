@@ -56,15 +56,9 @@ class Scene {
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
       points.push_back(Json{{"name", point.name}}.add(place(point.link, point.position, point.direction)));
-    return {{"joints", mapped(filtered(setup_.robot.joints, [](const Joint& joint) { return joint.follows.empty(); }),
-                              &Joint::name)},
-            {"links", links},
-            {"cell", shapes(setup_.cell)},
-            {"floor", setup_.simulation.floor},
-            {"clamps", clamps},
-            {"rings", rings},
-            {"mounting_points", points},
-            {"hoses", hoses}};
+    return {{"joints", setup_.robot.axis_names()}, {"links", links},   {"cell", shapes(setup_.cell)},
+            {"floor", setup_.simulation.floor},    {"clamps", clamps}, {"rings", rings},
+            {"mounting_points", points},           {"hoses", hoses}};
   }
 
  private:

@@ -1017,7 +1017,8 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
                  {size < 2 ? "multiples of g instead of m/s2" : "another unit", downward});
     doubt.number(
         {}, "the upward part of simulation.gravity_m_per_s2", "", gravity.z(), {-no_limit, -down * size, ": downward"},
-        {}, {"a wrong sign or axis", fmt::format("{}; leave it if the robot hangs on a wall or a ceiling", downward)});
+        {},
+        {"a wrong sign or axis", fmt::format("{}; leave it if the robot is mounted on a wall or a ceiling", downward)});
   }
   return warnings;
 }

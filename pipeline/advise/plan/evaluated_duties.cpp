@@ -450,7 +450,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
   return rates;
 }
 
-/// Returns whether the order without this program would have changes, of which no round was computed.
+/// Returns whether the order without this program would still have changes. No round was computed for them.
 bool leaves_changes(const Duty& duty, const std::string& job) {
   std::set<std::string> order;
   for (const OrderedProgram& program : duty.order) order.insert(program.job);

@@ -98,7 +98,7 @@ TEST_CASE("learned: the response of a row counts from the parameters that the ro
   }
 }
 
-TEST_CASE("learned: a life counts from the median of all rests, of which the job has another one") {
+TEST_CASE("learned: a life counts from the median of all rests, not from the rest of the job") {
   constexpr std::size_t rest = index_of(Uncertain::rest);
   constexpr double slope = 0.4;  // [decades]
   const auto at_rest = [&](double mean, double median = 5) {
