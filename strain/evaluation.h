@@ -160,7 +160,7 @@ class Evaluation {
   const BendScale& evening() const { return evening_; }
   /// Returns the strain that bends of incomplete turns would cause, and that a layer which slides over its pitch lacks. Call
   /// record_net_bend() before the first sample.
-  NetBend::Largest net_bend() const { return net_bend_->largest(); }
+  NetBend::Largest net_bend() const { return net_bend_.value().largest(); }
   void record_net_bend();
 
   /// Second pass. Evaluates segment `segment` of the span, whose history is `row` of `history`. Call in the order of

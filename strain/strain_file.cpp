@@ -653,7 +653,10 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
       strain.final_name()};
   Evaluations all(job, reader, samples, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
-  for (const auto& evaluation : evaluations) evaluation->record_net_bend();
+  const auto record_net_bends = [](const Evaluations& own) {
+    for (const auto& evaluation : own.of_span) evaluation->record_net_bend();
+  };
+  record_net_bends(all);
   std::list<Evaluations> otherwise_laid;
   Variations variations(
       job, evaluations, shortening,
@@ -661,7 +664,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         return otherwise_laid.emplace_back(job, reader, followed, threads, factors, scratch, &all).of_span;
       });
   Starts starts(all.of_span, [&]() -> Starts::Spans& {
-    return otherwise_laid.emplace_back(job, reader, samples, threads, job.strain.factors, scratch, &all).of_span;
+    Evaluations& laid = otherwise_laid.emplace_back(job, reader, samples, threads, job.strain.factors, scratch, &all);
+    record_net_bends(laid);  // a rest that is not the first one can become the job's own
+    return laid.of_span;
   });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
