@@ -25,13 +25,6 @@ constexpr double bent_sample = 0.5;
 constexpr double reach =
     1e-3;  // [m]; elongation per twist of similar effect, a typical distance of a wire from the axis
 
-void scale_friction(std::vector<Component>& parts, double factor) {
-  for (Component& part : parts) {
-    if (part.friction) *part.friction *= factor;
-    scale_friction(part.components, factor);
-  }
-}
-
 constexpr double no_friction = 0, all_friction = 1e12;  // friction levels
 
 /// A part of the cable, undeformed and slightly deformed.
@@ -108,10 +101,13 @@ BentPart straight_cable(const Component& cable, double elongation, double curvat
           curvature == 0};
 }
 
-/// Returns the stiffness of a wire whose deviation is free, per size of the deformation and per length of the cable.
+/// Returns the stiffness of a layer whose deviation is free, per size of the deformation and per length of the cable: of wires, and of
+/// the bed under a helix of parts. Bed and helix are in series: the helix has the share s of the mean strain m and the force E A s m,
+/// the bed has the rest. So twice their energy is E A s m^2, of which the wires in the parts contribute E A s^2 m^2.
 double own_stiffness(const Dresspack& dresspack, const Answer& of) {
+  if (!of.layer.components.empty()) return of.weight * of.EA * of.share * (1 - of.share) * of.mean * of.mean;
   const Material* const material = find_material(dresspack, of.layer.material);
-  if (!of.layer.components.empty() || material == nullptr) return 0;
+  if (material == nullptr) return 0;
   const double EI = of.EA * of.layer.radius * of.layer.radius / 4, GJ = EI / (1 + material->poisson_ratio);
   return of.weight * (EI * (of.bend1 * of.bend1 + of.bend2 * of.bend2) + GJ * of.twist * of.twist +
                       of.share * of.EA * of.mean * of.mean);
@@ -196,6 +192,10 @@ double CableBending::moment(double curvature, double friction_level) const {
   return sum;
 }
 
+double CableBending::friction(double curvature, double friction_level) const {
+  return moment(curvature, friction_level) - free_stiffness() * curvature;
+}
+
 double CableBending::free_stiffness() const {
   return sum_of(
       held_, [](const HeldLayer& of) { return of.elastic * of.share * of.glued; }, own_stiffness_);
@@ -261,12 +261,15 @@ double cable_stiffness(const Dresspack& dresspack, const Component& cable) {
   return polymer_bending(cable) + CableBending(dresspack, cable, StraightParts::slide).moment(curvature, 1) / curvature;
 }
 
-std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,
+std::vector<double> bending_moments(const Dresspack& dresspack, const Component& cable, double friction,
                                     const std::vector<double>& curvature) {
   const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
-  scale_friction(cable.components, friction);
   const CableBending bending(dresspack, cable);
-  return mapped(curvature, [&](double k) { return polymer_bending(cable) * k + bending.moment(k, level); });
+  const double sliding = polymer_bending(cable) + bending.free_stiffness();
+  return mapped(curvature, [&](double k) {
+    return sliding * k +
+           (friction > 0 ? friction * bending.friction(k / friction, level) : 0);  // M - E I k is homogeneous
+  });
 }
 
 }  // namespace dresslife::pipeline

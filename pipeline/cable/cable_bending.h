@@ -8,8 +8,8 @@
 // friction (W30, W16). By virtual work, the generalised force per length of the cable is:
 //     sum over wires of [E I (k_n'^2 + k_b'^2) + G J t'^2 + E A m'^2] x
 //         + sum over layers of their parts' E A x mean of h(phi) D(phi),                 (W29)
-// where ' means per x. E A of a part is that of all wires in it. The part held at one level changes the inner levels only to
-// second order, which is neglected.
+// where ' means per x. A soft bed under a helix of parts adds its own energy (own_stiffness() in cable_bending.cpp). E A of a part is
+// that of all wires in it. The part held at one level changes the inner levels only to second order, which is neglected.
 //
 // Friction accumulates from the neutral axis, phi = 0, as in (W20). A part whose force can change by mu p per length has in its
 // first bend h(phi) = min(A x sin(phi), cap 2 phi/pi), with the cap of (W16) at phi = pi/2. The strain stage follows each wire
@@ -44,6 +44,9 @@ class CableBending {
   /// Returns the moment of one cable's wires [N m]. curvature [1/m]. friction_level: factor of every radial line load in the
   /// cable, in addition to the factors from measured stiffnesses of its parts.
   double moment(double curvature, double friction_level) const;
+  /// Returns the part of the moment by friction alone [N m]. For f times the friction of all parts it is f times that at 1/f times
+  /// the curvature.
+  double friction(double curvature, double friction_level) const;
   double free_stiffness() const;  ///< without friction [N m2]
   double stuck_stiffness(
       int levels = 0) const;  ///< if no part slides, or only the innermost `levels` do not slide [N m2]
@@ -88,7 +91,7 @@ double cable_stiffness(const Dresspack& dresspack, const Component& cable);
 /// Returns the moments that bend a single cable from straight for the first time [N m], (bend), including its polymer. friction:
 /// factor of the friction of all its parts, in addition to the factor from a measured stiffness. curvature: (bend) [1/m]. Errors:
 /// InputError like friction_level().
-std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,
+std::vector<double> bending_moments(const Dresspack& dresspack, const Component& cable, double friction,
                                     const std::vector<double>& curvature);
 
 }  // namespace dresslife::pipeline

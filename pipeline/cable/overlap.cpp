@@ -20,6 +20,26 @@ constexpr double hopeless = 0.5;   // share of the diameter, between the axes
 constexpr int steps = 64;          // of phi, to find the minimum
 constexpr const char* rough = "radii and lay angles that were measured or estimated roughly";
 
+/// Returns the distance of two helices of these radii with one rate of rotation [rad/m], one of which is turned against the other
+/// by 0 .. pi. The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where it is a lay
+/// before it. It is found by steps, then by ternary search.
+double helix_distance(double R, double r, double rate, double turned) {
+  const auto squared = [&](double phi) {
+    return R * R + r * r - 2 * R * r * std::cos(turned + phi) + (phi == 0 ? 0 : std::pow(phi / rate, 2));
+  };
+  if (rate == 0) return std::sqrt(squared(0));
+  int nearest = 0;
+  for (int k = 1; k <= steps; ++k)
+    if (squared(-turned * k / steps) < squared(-turned * nearest / steps)) nearest = k;
+  double low = -turned * std::min(nearest + 1, steps) / steps, high = -turned * std::max(nearest - 1, 0) / steps;
+  for (int third = 0; third < 40;
+       ++third) {  // the width becomes 2/3 each time: 1e-7 of a step in the end, squared in the distance
+    const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;
+    (squared(left) < squared(right) ? high : low) = squared(left) < squared(right) ? right : left;
+  }
+  return std::sqrt(squared((low + high) / 2));
+}
+
 bool fits(const Component& of, double lay_angle, int count, double give = rounding) {
   return count < 2 || neighbour_distance(of.helix_radius, lay_angle, count) >= 2 * of.radius * (1 - give);
 }
@@ -156,25 +176,8 @@ void add_filling(const Dresspack& dresspack, std::vector<Warning>& warnings) {
 
 }  // namespace
 
-// The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where it is a lay before
-// it. It is found by steps, then by ternary search.
 double neighbour_distance(double helix_radius, double lay_angle, int count) {
-  const double turned = 2 * pi / count, R = helix_radius;
-  if (lay_angle == 0) return 2 * R * std::sin(turned / 2);
-  const double per_angle = R / std::tan(lay_angle);
-  const auto squared = [&](double phi) {
-    return 2 * R * R * (1 - std::cos(turned + phi)) + per_angle * phi * per_angle * phi;
-  };
-  int nearest = 0;
-  for (int k = 1; k <= steps; ++k)
-    if (squared(-turned * k / steps) < squared(-turned * nearest / steps)) nearest = k;
-  double low = -turned * std::min(nearest + 1, steps) / steps, high = -turned * std::max(nearest - 1, 0) / steps;
-  for (int third = 0; third < 40;
-       ++third) {  // the width becomes 2/3 each time: 1e-7 of a step in the end, squared in the distance
-    const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;
-    (squared(left) < squared(right) ? high : low) = squared(left) < squared(right) ? right : left;
-  }
-  return std::sqrt(squared((low + high) / 2));
+  return helix_distance(helix_radius, helix_radius, std::tan(lay_angle) / helix_radius, 2 * pi / count);
 }
 
 double nearest_distance(const Component& one, const Component& other) {
@@ -184,8 +187,8 @@ double nearest_distance(const Component& one, const Component& other) {
   for (int k = 0; k < one.count; ++k)
     for (int j = 0; j < other.count; ++j) {
       const double between = one.phase + 2 * pi * k / one.count - other.phase - 2 * pi * j / other.count;
-      nearest = std::min(nearest, std::hypot(one.helix_radius - other.helix_radius * std::cos(between),
-                                             other.helix_radius * std::sin(between)));
+      nearest = std::min(nearest, helix_distance(one.helix_radius, other.helix_radius, std::abs(turn_rate(one)),
+                                                 std::abs(std::remainder(between, 2 * pi))));
     }
   return nearest;
 }

@@ -16,8 +16,8 @@ namespace dresslife::pipeline {
 /// Returns the distance between the axes of neighbours in a layer of `count` > 1 parts [m].
 double neighbour_distance(double helix_radius, double lay_angle, int count);
 
-/// Returns the smallest distance between the axes of parts of two components of one parent [m]. With equal tan(alpha)/R, it is the
-/// distance in the cross-section. Otherwise it is the difference of their radii, because the parts meet within a metre.
+/// Returns the smallest distance between the axes of parts of two components of one parent [m]. Parts with unequal tan(alpha)/R
+/// meet within a metre, so their distance is the difference of their radii.
 double nearest_distance(const Component& one, const Component& other);
 
 /// Returns whether the parts of a component overlap by more than overlap_warnings() allows.

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/cable_bending.h"
@@ -33,13 +34,14 @@ bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_va
 /// Returns E I of all polymer in the dresspack. A dresspack that is no hose is a cable of parts in a jacket, or contains a single
 /// cable.
 double polymer_of(const Dresspack& dresspack) {
-  double sum = 0;
-  bool on_axis = false;
-  for (const Component& part : dresspack.components) {
-    sum += part.count * (part.plain ? properties_of(*part.plain, part.radius).bending : polymer_bending(part));
-    on_axis |= part.helix_radius == 0 && !part.components.empty();
-  }
-  return is_hose(dresspack) || on_axis ? sum : dresspack.stiffness_factor * jacket_bending(dresspack.diameter / 2);
+  const std::vector<Component>& parts = dresspack.components;
+  const double sum = sum_of(parts, [](const Component& part) {
+    return part.count * (part.plain ? properties_of(*part.plain, part.radius).bending : polymer_bending(part));
+  });
+  const bool is_cable = parts.size() == 1 && parts[0].count == 1 && parts[0].helix_radius == 0;
+  return is_hose(dresspack) || (is_cable && !parts[0].components.empty())
+             ? sum
+             : dresspack.stiffness_factor * jacket_bending(dresspack.diameter / 2);
 }
 
 bool knows_wall(const Dresspack& dresspack) {
@@ -118,9 +120,7 @@ class Wires {
     return 0;
   }
   /// Returns the moment by friction alone [N m].
-  double friction(double curvature) const {
-    return bending_.moment(curvature, 1) - bending_.free_stiffness() * curvature;
-  }
+  double friction(double curvature) const { return bending_.friction(curvature, 1); }
   const std::vector<PullAndTwist>& layers() const { return layers_; }
 
  private:
@@ -215,11 +215,12 @@ double mass_of_part(const Component& part) {
 
 double mass_of_construction(const Dresspack& dresspack) {
   double mass = is_hose(dresspack) ? polymer_density * section_of_wall(dresspack) : 0, parts = 0;
-  for (const Component& part : dresspack.components) {
-    const double own = is_wire(part) ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
-    mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
-    parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
-  }
+  for (const std::vector<Component>& inside : {dresspack.components, dresspack.core_components})
+    for (const Component& part : inside) {
+      const double own = is_wire(part) ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
+      mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
+      parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
+    }
   const double left = pi / 4 * dresspack.diameter * dresspack.diameter - parts;
   return is_hose(dresspack) ? mass : mass + polymer_density * std::max(left, 0.0);
 }

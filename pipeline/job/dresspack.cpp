@@ -206,7 +206,7 @@ void describe(Fields& f, Dresspack& dresspack) {
          "helix_radius_mm and phase_deg packs parts into the bore.");
   f.list("core_components", dresspack.core_components, Need::optional,
          "The parts in the filling of the core, instead of core_parts: hoses, which may kink, and cables with ratings. "
-         "The other keys give stiffness and mass of the filling.");
+         "The keys core_.. give the stiffness of the filling, mass_kg_per_m contains its mass.");
   f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
          "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");

@@ -141,7 +141,7 @@ struct Dresspack {
   double core_diameter = 0;              ///< of the core, which fills the middle and is no component [m]
   std::string core_parts;                ///< content of the core in words; empty: unknown
   std::vector<Component>
-      core_components;           ///< parts of the core with a life; the keys core_.. contain their stiffness and mass
+      core_components;  ///< parts of the core with a life; the keys core_.. contain their stiffness, mass_per_length their mass
   double stiffness_factor = 1;   ///< of the polymer of wall or jacket at the cell's temperature
   std::optional<Sleeve> sleeve;  ///< absent: abrasion acts on the wall of hose_corrugation
   std::vector<Component> components;

@@ -110,7 +110,7 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   parts[1].phase = std::numbers::pi / 3;
   for (const double lay : {0.0, 10.0}) {
     parts[0].lay_angle = parts[1].lay_angle = lay * degree;
-    CHECK(nearest_distance(parts[0], parts[1]) == Approx(2e-3));
+    CHECK(nearest_distance(parts[0], parts[1]) == Approx(neighbour_distance(2e-3, lay * degree, 6)));
     CHECK(overlap_warnings(dresspack).empty());
   }
   parts[1].hand = Hand::left;
@@ -118,12 +118,21 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(overlap_warnings(dresspack).size() == 1);
   parts[1].hand = Hand::right;
   parts[1].phase = 5 * degree;  // nearly the same place: certainly a mistake
-  CHECK_THROWS_WITH(overlap_warnings(dresspack), Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
-                                                     Catch::Contains("nearer than half of these"));
+  CHECK_THROWS_WITH(overlap_warnings(dresspack),
+                    Catch::Contains("'ring' and 'between' come as near as 0.1718 mm") &&  // 2 mm x 5 deg x cos(10 deg)
+                        Catch::Contains("nearer than half of these"));
   CHECK_THROWS(refuse_gross_overlap(dresspack));
-  parts[1].phase = std::numbers::pi / 4;  // 15 deg from it: 2 R sin(22.5 deg)
-  CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
+  parts[1].phase = std::numbers::pi / 4;  // 45 deg from one and 75 deg from another
+  CHECK(nearest_distance(parts[0], parts[1]) == Approx(neighbour_distance(2e-3, 10 * degree, 8)));
   CHECK(overlap_warnings(dresspack).size() == 1);
+
+  // Helices are nearer along the helix than in the cross-section. Eight parts overlap whether they are one component or two.
+  for (Component& part : parts)
+    part.count = 4, part.radius = 1.5e-3, part.helix_radius = 4e-3, part.lay_angle = 25 * degree;
+  CHECK(nearest_distance(parts[0], parts[1]) < 3e-3);
+  CHECK(8e-3 * std::sin(22.5 * degree) > 3e-3);
+  REQUIRE(overlap_warnings(dresspack).size() >= 1);
+  CHECK_THAT(overlap_warnings(dresspack)[0].words, Catch::Contains("'ring' and 'between' come as near as 2.806 mm"));
 }
 
 TEST_CASE("a hose that its parts fill by more than 70 % is warned of, with a bore that is wide enough") {

@@ -7,6 +7,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/cable/cable_bending.h"
+#include "pipeline/cable/cable_pull.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
@@ -86,6 +87,38 @@ TEST_CASE("stiffness: layers of both hands do not give way") {
   const PullAndTwist answer = pull_and_twist(of({cable}), cable);
   CHECK(std::abs(answer.coupling) < 1e-6 * answer.pull_by_elongation * 2e-3);
   CHECK(answer.relaxed() == Approx(answer.torque_by_twist));
+}
+
+TEST_CASE("stiffness: a soft bed and the parts on it are springs in series") {
+  const double R = 2e-3, a = 20 * degree, bed = 1e7, area = pi * 1e-8, EA = copper_modulus * area;
+  Component core = cable_of({wires(1, 1e-4, 0, 0)});
+  core.count = 5, core.helix_radius = R, core.lay_angle = a, core.radial_stiffness = bed;
+  const Component cable = cable_of({core});
+  const Dresspack dresspack = of({cable});
+  const PullAndTwist answer = pull_and_twist(dresspack, cable);
+  // Force F per length of a helix presses with F sin^2/R on the bed. It gives way by x, which shortens the helix by x sin^2/R.
+  const double curvature = std::pow(std::sin(a), 2) / R, share = 1 / (1 + EA * curvature * curvature / bed);
+  REQUIRE(share < 0.6);
+  constexpr double wire_itself = 5e-3;  // its own bending and torsion, (r/R)^2/4 of the pull's energy over the share
+  CHECK(answer.pull_by_elongation == Approx(5 * share * EA * std::pow(std::cos(a), 3)).epsilon(wire_itself));
+  CHECK(answer.torque_by_twist == Approx(5 * share * EA * std::pow(R * std::sin(a), 2) * std::cos(a)).epsilon(2e-2));
+  const double small = 1e-6;
+  CHECK(answer.pull_by_elongation == Approx(pull_of_wires(dresspack, {core}, small, 0) / small).epsilon(wire_itself));
+}
+
+TEST_CASE("stiffness: a cable with a core on its axis has the jacket of one with all cores around it") {
+  Component middle = cable_of({wires(1, 1e-4, 0, 0)}), around = middle;
+  middle.radius = around.radius = 1.7e-3;
+  around.count = 6, around.helix_radius = 3.4e-3, around.lay_angle = 10 * degree;
+  Dresspack flat = of({middle, around}), ring = of({around});
+  flat.diameter = ring.diameter = 0.0106;
+  const double jacket = 1e7 * pi / 4 * std::pow(0.0053, 4), wire = copper_modulus * pi / 4 * 1e-16;
+  constexpr double slant = 1e-3;  // of the cores, on the wires' share of 1 % (10 deg: 4 % of it)
+  CHECK(in_state(flat, SlipState::sliding).bending == Approx(jacket + 7 * wire).epsilon(slant));
+  CHECK(in_state(ring, SlipState::sliding).bending == Approx(jacket + 6 * wire).epsilon(slant));
+  Dresspack wrapped = of({cable_of({middle, around})});  // a single part on the axis is the cable itself, 10 mm wide
+  wrapped.diameter = 0.0106;
+  CHECK(in_state(wrapped, SlipState::sliding).bending == Approx(jacket_bending(0.005) + 7 * wire).epsilon(slant));
 }
 
 TEST_CASE("stiffness: the layers of a single cable are twisted together at its free length") {
@@ -252,6 +285,20 @@ TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose
     CHECK(none[k] == Approx(bends[k] * in_state(dresspack, SlipState::sliding).bending));
   }
   CHECK(three[2] > 1.1 * one[2]);
+
+  // Friction of a cable with a part whose stiffness was measured: the measurement sets a level, which the factor multiplies.
+  Component cable = dresspack.components[0];
+  Component& conductor = cable.components[0];
+  CableBending bending(dresspack, conductor, StraightParts::slide);
+  conductor.measured_at_curvature = 1;
+  conductor.measured_bending_stiffness =
+      conductor.polymer_bending_stiffness + (bending.free_stiffness() + bending.stuck_stiffness()) / 2;
+  const double bend = 5;
+  const auto by_friction = [&](double factor, double at) {
+    return bending_moments(dresspack, cable, factor, {at})[0] - bending_moments(dresspack, cable, 0, {at})[0];
+  };
+  CHECK(by_friction(3, 3 * bend) == Approx(3 * by_friction(1, bend)));
+  REQUIRE(by_friction(1, 3 * bend) < 2.5 * by_friction(1, bend));  // parts slide
 }
 
 TEST_CASE("stiffness: a hose from its construction keeps its secant, and its links get spring and friction apart") {
@@ -503,6 +550,17 @@ TEST_CASE("stiffness: a warm cell softens polymers and not copper, and 23 C chan
   // A stiffness given as a number does not change.
   const auto given = [](const std::string& temperature) { return job_with({"cell.temperature_C=" + temperature}); };
   CHECK(bending(given("50")) == bending(given("23")));
+}
+
+TEST_CASE("stiffness: parts of the core add mass to that from the construction") {
+  const std::string core = "dresspack.core_diameter_mm=20", mass = "dresspack.mass_kg_per_m=from_construction",
+                    part =
+                        "{name: power, radius_mm: 4, helix_radius_mm: 0, mass_kg_per_m: 0.25, without_wires: {kind: "
+                        "cable, bending_stiffness_Nm2: 1}}";
+  const Job job = job_with({core, mass, "dresspack.core_components=[" + part + "]"}), none = job_with({core, mass});
+  const auto of_hose = [](const Job& of) { return of.dresspacks[0].dresspack.mass_per_length; };
+  // The sample has no wall: it is full of a polymer of 1200 kg/m3, which the part displaces.
+  CHECK(of_hose(job) - of_hose(none) == Approx(0.25 - 1200 * pi * std::pow(0.004, 2)));
 }
 
 TEST_CASE("stiffness: parts of the core add none, and what does not fit into it is refused") {
