@@ -96,10 +96,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
     const FileState now = state_of(folder / stage.output);
     const bool removed = !now.exists() && may_lack(state.keep, state.next);
     if (!removed && !is_as_noted(*receipt, folder / stage.output)) {
-      if (now.exists()) {
-        state.damaged = stage.output;
-        state.foreign = !is_ours(folder / stage.output);
-      }
+      if (now.exists()) state.damaged = stage.output;
       return;
     }
     if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
@@ -377,6 +374,7 @@ void forget_damaged(const fs::path& folder) {
 
 void look_at(JobState& state, const fs::path& folder) {
   state.damaged.clear();
+  state.foreign = false;
   state.compared.clear();
   state.results.clear();
   if (kind_of(folder) == FileKind::absent) {  // quick return for thousands of new jobs
@@ -396,6 +394,10 @@ void look_at(JobState& state, const fs::path& folder) {
   find_last(state, folder);
   // The next stage reads the output of the previous stage, which may have been removed. Then that stage runs again.
   while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
+  // A run replaces no file of the user.
+  for (std::size_t k = state.next; k < stage_count && !state.foreign; ++k)
+    if (const fs::path output = folder / stages[k].output; kind_of_name(output) != FileKind::absent && !is_ours(output))
+      state.damaged = stages[k].output, state.foreign = true;
 }
 
 std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states) {
@@ -406,6 +408,7 @@ std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& s
     if (!study.jobs[k].failure.empty() || states[k].done()) continue;
     std::string key = fmt::format("{} {}", states[k].next, states[k].inputs[states[k].next]);
     for (std::size_t stage = states[k].next; stage + 1 < stage_count; ++stage) {
+      if (states[k].foreign && states[k].damaged == stages[stage].output) break;  // the stage fails for this job only
       key += ' ' + states[k].recipes[stage];
       makers[k][stage] = firsts.try_emplace(key, k).first->second;
     }

@@ -91,6 +91,8 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
         remove_ours(to / files.output);
         return false;
       }
+    } else {
+      remove_ours(to / files.output);  // it belongs to the removed receipt
     }
     copy_if_there(from / files.log, to / files.log);
     write_receipt(to / files.receipt, *receipt, to / files.output);
@@ -137,7 +139,10 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
   for (const fs::path& to : folders) {
     make_notes(to / ".stage");
     remove_ours(to / files.receipt);  // the receipt describes a file that is replaced below
-    if (is_there) give_second_name(from / files.output, to / files.output);
+    if (is_there)
+      give_second_name(from / files.output, to / files.output);
+    else
+      remove_ours(to / files.output);  // it belongs to the removed receipt
     copy_if_there(from / files.log, to / files.log);
     if (stage + 1 == stage_count) copy_if_there(from / "log", to / "log");
   }
@@ -160,7 +165,7 @@ void share_stages(const Study& study, const StudyPlaces& places, std::vector<Job
         havers.emplace(recipes_up_to(states[k], stage), k);
   std::map<std::size_t, std::vector<Receiver>> gifts;  // (giving job) receivers
   for (std::size_t k = 0; k < states.size(); ++k) {
-    if (!study.jobs[k].failure.empty()) continue;
+    if (!study.jobs[k].failure.empty() || states[k].foreign) continue;
     for (std::size_t stage = stage_count; stage-- > states[k].next;)
       if (const auto haver = havers.find(recipes_up_to(states[k], stage)); haver != havers.end()) {
         gifts[haver->second].push_back({k, stage});

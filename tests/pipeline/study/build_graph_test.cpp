@@ -311,6 +311,52 @@ TEST_CASE("build graph: a study takes what a study beside it has made, and both 
 }
 
 TEST_CASE("build graph: a job with other settings of strains takes the simulation of another study") {
+TEST_CASE("build graph: a job that takes results keeps no older output that the other job does not have") {
+  for (const bool beside : {false, true}) {
+    Bench bench;
+    const std::pair<std::string, std::string> one{"one", "fatigue.stress=elastic"};
+    const Study source = bench.study({one});
+    bench.run(source);
+    if (beside) bench.go_beside("other");
+    bench.run(bench.study({{"two", "simulation.segments=40"}}));  // two has its motion.h5 with other settings
+    Study both = bench.study({one, {"two", "fatigue.scatter_log10=0.3"}});
+    if (beside) both.jobs.erase(both.jobs.begin());
+    both.keep = Keep::histories;
+    if (!beside) fs::remove(bench.places().job("one") / "motion.h5");
+    std::vector<JobState> states = states_of(both, bench.places());
+    share_stages(both, bench.places(), states);
+    CHECK(states.back().next == 2);  // two has taken the strain
+    CHECK_FALSE(fs::exists(bench.places().job("two") / "motion.h5"));
+    CHECK(bench.run(both).executed == 1);
+    CHECK(bench.states().back().done());
+  }
+}
+
+TEST_CASE("build graph: a user's file with the name of a result stops its own job only") {
+  const std::vector<std::pair<std::string, std::string>> jobs{
+      {"one", "fatigue.stress=elastic"}, {"two", "fatigue.scatter_log10=0.3"}, {"three", "fatigue.scatter_log10=0.2"}};
+  for (const std::string name : {"motion.h5", "strain.h5", "life.h5"})
+    for (const bool one_is_done : {true, false}) {
+      INFO(name << one_is_done);
+      Bench bench;
+      const fs::path mine = bench.places().job("two") / name;
+      if (one_is_done) bench.run(bench.study({jobs[0]}));
+      fs::create_directories(mine.parent_path());
+      std::ofstream(mine) << "notes of the user's";
+      const Study study = bench.study(jobs);
+      CHECK(bench.words(study)[1] ==
+            fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", name));
+      bench.run_sharing(study);
+      CHECK(bench.states()[0].done());
+      CHECK_THAT(bench.states()[1].failure, Catch::Contains(name + ": error: is there already"));
+      CHECK(bench.states()[2].done());
+      CHECK(bytes_of(mine) == "notes of the user's");
+      fs::remove(mine);
+      bench.run_sharing(study);
+      CHECK(bench.words(study) == Words(3, "done"));
+    }
+}
+
   Bench bench;
   bench.run(bench.study({{"one", "strain.gate=2e-4"}}));
   bench.go_beside("other");
