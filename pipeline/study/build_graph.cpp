@@ -489,6 +489,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     write_text_if_changed(folder / "job.yaml", with_mark(texts.stored_job_text(job.job, job.name), Mark::yaml),
                           Sync::never);
     if (states[k].done()) return;
+    // Size and times of a damaged file may be those in its receipt. Then its stage would take it for complete.
+    if (!states[k].damaged.empty() && !states[k].foreign) forget_damaged(folder);
     if (!is_new) {
       check_notes(folder / ".stage");
       for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pipeline/base/ownership.h"
+#include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -701,6 +702,31 @@ TEST_CASE("receipts: a state suffices once the clock has moved on, a damaged rec
   const Scratch scratch;
   const fs::path output = scratch.write("out.h5", "content");
   std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a tick of the file system's clock
+TEST_CASE("build graph: damage that size and times of a file do not show is repaired once a stage has failed") {
+  Bench bench;
+  bench.run(bench.study({{"one", "simulation.segments=20"}}));
+  const fs::path folder = bench.places().job("one");
+  std::string set = "fatigue.stress=elastic";
+  for (const std::size_t stage : {0u, 1u}) {
+    const auto [output, receipt, log] = files_of_stage(stage);
+    std::string damaged = bytes_of(folder / output);
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
+    std::ofstream(folder / output, std::ios::binary | std::ios::trunc) << damaged;
+    REQUIRE_FALSE(checksum_of(folder / output));
+    std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a tick of the file system's clock
+    write_receipt(folder / receipt, *read_receipt(folder / receipt), folder / output);  // with the damaged file's state
+    const Study study = bench.study({{"one", set}});
+    CHECK(bench.words(study) == Words{"stale"});
+    bench.report_stage("one", "fail-fatigue");
+    bench.run(study);
+    fs::remove(folder / "fail-fatigue");
+    bench.run(study);
+    CHECK(bench.words(study) == Words{"done"});
+    CHECK(checksum_of(folder / output));
+    set = "fatigue.scatter_log10=0.3";
+  }
+}
+
   write_receipt(scratch / "receipt", {"r", "-", "o", {}}, output);
   const std::optional<Receipt> receipt = read_receipt(scratch / "receipt");
   REQUIRE(receipt);
