@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
@@ -27,6 +28,10 @@ Node value_of(const CsvCell& cell, const Where& where) {
   } catch (const InputError&) {
     throw InputError(where, fmt::format("'{}' is no value", cell.text), "write it as in a job, in quotes if need be");
   }
+  if (cell.text.find('#') != std::string::npos && !value.quoted && !value.is_list() && !value.is_map() &&
+      value.text != cell.text)
+    throw InputError(where, fmt::format("in '{}' the text behind # is a comment", cell.text),
+                     fmt::format("write '{}' with these quotes", cell.text));
   place_at(value, where);
   return value;
 }
@@ -40,7 +45,12 @@ Variant variant_of(const CsvReader& table, const CsvRow& titles, const CsvRow& r
       variant.name = row[k].text;
       if (variant.name.empty()) throw InputError(where, "a row has no name", "give it one of its own");
     } else if (!row[k].text.empty()) {
-      variant.changes.push_back({path_of(titles[k].text, row[k].text), value_of(row[k], where), where});
+      const std::string path = path_of(titles[k].text, row[k].text);
+      if (const Change* const other = find_in(variant.changes, &Change::path, path))
+        throw InputError(where,
+                         fmt::format("{} is also set at {}: one would replace the other", path, other->where.text()),
+                         "keep one of the two");
+      variant.changes.push_back({path, value_of(row[k], where), where});
     }
   }
   return variant;

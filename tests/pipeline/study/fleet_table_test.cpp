@@ -70,6 +70,26 @@ TEST_CASE("fleet table: a program is a motion of the catalogue or a controller's
   CHECK(variants[2].changes[0].value.where.column == 3);
 }
 
+TEST_CASE("fleet table: two columns that set one key are refused") {
+  CHECK_THAT(refusal("name,motion,program\nx,easy,\ny,easy,hard\n"),
+             Catch::StartsWith("fleet:3:8: error: motion is also set at ") &&
+                 Catch::EndsWith("fleet.csv:3:3: one would replace the other; keep one of the two"));
+  CHECK_THAT(refusal("name,motion.program,program\nx,a.mod,b.mod\n"),
+             Catch::StartsWith("fleet:2:9: error: motion.program is also set at "));
+}
+
+TEST_CASE("fleet table: a cell is never cut off at a number sign") {
+  CHECK(refusal("name,a\nx,line #3\n") ==
+        "fleet:2:3: error: in 'line #3' the text behind # is a comment; write 'line #3' with these quotes");
+  CHECK(refusal("name,a\nx,\"#3\"\n") ==
+        "fleet:2:3: error: in '#3' the text behind # is a comment; write '#3' with these quotes");
+  const Scratch scratch;
+  const auto variants = table_variants(scratch.write("f.csv", "name,a\nx,'line #3'\ny,line#3\nz,\"[1, 'a #2']\"\n"));
+  CHECK(variants.at(0).changes.at(0).value.text == "line #3");
+  CHECK(variants.at(1).changes.at(0).value.text == "line#3");
+  CHECK(variants.at(2).changes.at(0).value.items.at(1).text == "a #2");
+}
+
 TEST_CASE("fleet table: what is no table is refused at its cell") {
   CHECK(refusal("") == "fleet:1:1: error: holds no table; write a line of column titles, then a row per job");
   CHECK(refusal("# nothing") == "fleet:1:1: error: holds no table; write a line of column titles, then a row per job");
