@@ -15,6 +15,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/settings/document.h"
 #include "pipeline/study/build_graph.h"
+#include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -57,9 +58,14 @@ Json warning_list(const RankingRow& row) {
 Json json_of_csv(const std::string& csv) { return rows_of_csv(csv); }
 
 Json json_of(const std::vector<RankingRow>& rows) {
-  std::vector<Json> objects = rows_of_csv(ranking_csv(rows));
-  for (std::size_t k = 0; k < objects.size(); ++k) objects[k].add("warning_list", warning_list(rows[k]));
-  return objects;
+  return mapped(rows, [](const RankingRow& row) {
+    Json object = empty_object();
+    for (const RankingColumn& column : ranking_columns()) {
+      const std::string text = column.text(row);
+      object.add(column.name, column.has_numbers() && !text.empty() ? json_of_cell(text) : text_or_null(text));
+    }
+    return object.add("warning_list", warning_list(row));
+  });
 }
 
 Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows) {

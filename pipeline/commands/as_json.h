@@ -20,7 +20,8 @@ struct Warning;
 /// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Job names and digests are always text.
 Json json_of_csv(const std::string& csv);
 
-/// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning).
+/// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning). Cells of text columns are
+/// text as it is, without the apostrophe for spreadsheets.
 Json json_of(const std::vector<RankingRow>& rows);
 
 /// Returns the rows of duty_csv(), each with the warnings of its program as `warning_list`, and as `do_not_plan` the programs of its

@@ -397,18 +397,8 @@ std::string force_words(const RankingRow& row) {
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
   std::string text = joined(mapped(ranking_columns(), &RankingColumn::name), ",") + '\n';
   for (const RankingRow& row : rows) {
-    const std::map<std::string_view, std::string> without_result{{"job", row.job},
-                                                                 {"status", row.waits() ? row.failure : "failed"},
-                                                                 {"message", row.failure},
-                                                                 {"settings", row.settings}};
-    std::vector<std::string> cells;
-    for (const RankingColumn& column : ranking_columns()) {
-      const auto given = without_result.find(column.name);
-      cells.push_back(csv_cell(row.has_result()                ? column.cell(row)
-                               : given != without_result.end() ? given->second
-                                                               : std::string()));
-    }
-    text += fmt::format("{}\n", joined(cells, ","));
+    const auto cell = [&](const RankingColumn& column) { return csv_cell(column.text(row)); };
+    text += fmt::format("{}\n", joined(mapped(ranking_columns(), cell), ","));
   }
   return text;
 }

@@ -339,6 +339,15 @@ class Table {
 
 }  // namespace
 
+std::string RankingColumn::text(const RankingRow& row) const {
+  if (row.has_result()) return cell(row);
+  return name == "job"        ? row.job
+         : name == "status"   ? (row.waits() ? row.failure : "failed")
+         : name == "message"  ? row.failure
+         : name == "settings" ? row.settings
+                              : "";
+}
+
 const std::vector<RankingColumn>& ranking_columns() {
   static const std::vector<RankingColumn> columns = Table().columns;
   return columns;

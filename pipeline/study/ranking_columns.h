@@ -14,6 +14,9 @@ struct RankingColumn {
   std::string meaning;
   std::function<std::string(const RankingRow&)>
       cell;  ///< returns the cell of a row with a result; empty: unknown or not applicable
+  /// Returns the cell of any row.
+  std::string text(const RankingRow& row) const;
+  bool has_numbers() const { return unit != "text" && unit != "yes or no"; }
 };
 
 /// Returns the columns in the order of the file. New columns are added at the end; other programs read columns by name.

@@ -1,6 +1,8 @@
 // The output of --json is JSON that Python reads, with the numbers of the other outputs.
 #include <sstream>
 
+#include "pipeline/commands/as_json.h"
+#include "pipeline/study/ranking.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
@@ -58,4 +60,19 @@ for job in refused:
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);
   CHECK(outcome.status == 0);
+}
+
+TEST_CASE("json: texts of the ranking are as they were given, also with line feeds, signs and digits alone") {
+  dresslife::pipeline::RankingRow row, failed;
+  row.job = "7", row.worst_component = "+24V", row.worst_step = "line 1\nline 2", row.settings = "123456789012";
+  row.worst_segment_from_tool = 3, row.life_hours = 5;
+  failed.job = "two", failed.failure = "it broke";
+  const std::string text = dresslife::pipeline::json_of(std::vector{row, failed}).text;
+  for (const char* member :
+       {R"("job":"7")", R"("worst_component":"+24V")", R"("worst_step":"line 1\u000aline 2")",
+        R"("settings":"123456789012")", R"("worst_segment_from_tool":3)", R"("life_hours":5)", R"("status":"done")",
+        R"("status":"failed")", R"("message":"it broke")", R"("worst_joint":null)"}) {
+    INFO(member);
+    CHECK(text.find(member) != std::string::npos);
+  }
 }
