@@ -254,7 +254,9 @@ void report_orders(std::vector<RankingRow>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const bool known = !lives[k].empty();
     if (known && before) rows[k - 1].outlives_next = share_outliving(*before, lives[k]);
-    const bool tied = known && leader && share_outliving(*leader, lives[k]) < separated_share;
+    const bool equal = k > 0 && rows[k].headline_hours() == rows[k - 1].headline_hours() &&
+                       rows[k].life_hours == rows[k - 1].life_hours;
+    const bool tied = known ? leader && share_outliving(*leader, lives[k]) < separated_share : equal;
     if (!tied) leader = known ? &lives[k] : nullptr, rank = k + 1;
     if (rows[k].rank) rows[k].rank = rank;
     before = known ? &lives[k] : nullptr;

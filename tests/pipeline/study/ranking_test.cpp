@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/life/first_failure.h"
 #include "tests/catch.h"
@@ -46,6 +47,7 @@ TEST_CASE("ranking: best life first, equal lives by name, failed jobs last") {
                                   {"aborted", "", "why"},
                                   job_with(scratch, "twin a", living(500))});
   CHECK(names(rows) == std::vector<std::string>{"endless", "twin a", "twin b", "short", "aborted", "broken"});
+  CHECK(mapped(rows, &RankingRow::rank) == std::vector<std::size_t>{1, 2, 2, 4, 0, 0});
 }
 
 TEST_CASE("ranking: a row of a study says how its job stands and which values it has") {
