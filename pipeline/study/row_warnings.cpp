@@ -21,6 +21,7 @@ std::string lines_of_kind(const std::vector<RankingRow>& rows, WarningKind kind)
   std::string last;
   std::size_t jobs = 0;
   for (const RankingRow& row : rows) {
+    if (!row.done()) continue;
     const std::vector<Warning> warnings = warnings_of(row);
     const Warning* const found = find_in(warnings, &Warning::kind, kind);
     if (!found) continue;
@@ -57,7 +58,7 @@ bool spoils_plan(const Warning& warning) {
 }
 
 std::vector<Warning> warnings_of(const RankingRow& row) {
-  if (!row.done()) return {};
+  if (!row.has_result()) return {};
   if (row.warnings) return *row.warnings;
   if (row.force_ok()) return {};
   return {{WarningKind::force, "", force_words(row)}};
@@ -83,7 +84,7 @@ std::string warning_lines(const std::vector<RankingRow>& rows) {
   std::size_t count = 0, at_other_values = 0;
   std::string text;
   for (const RankingRow& row : rows)
-    for (const Warning& warning : warnings_of(row))
+    for (const Warning& warning : row.done() ? warnings_of(row) : std::vector<Warning>{})
       if (warning.kind == WarningKind::other_values && rows.size() > 1)
         ++at_other_values;
       else if (++count <= most_lines)

@@ -8,7 +8,8 @@
 
 namespace dresslife::pipeline {
 
-/// Returns the warnings of a row; for an older file without warnings the warning about its forces.
+/// Returns the warnings of a row, of a stale job those of its last result; for an older file without warnings the warning about its
+/// forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
 /// Words of the warning of a calibration whose records contradict its prediction.
@@ -23,8 +24,8 @@ std::string warning_kinds(const RankingRow& row, bool with_other_values = false)
 /// Returns "doubtful input (KEY)": a plan may use the hours once a person has confirmed it. Empty: there is none.
 std::string doubtful_input(const RankingRow& row);
 
-/// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: one warning of each kind,
-/// of the last row that has it, the number of jobs, and the files with the other warnings. Empty: none.
+/// Returns every warning of finished jobs with its job, one per line. For more than a dozen, and for limits at other values: one
+/// warning of each kind, of the last row that has it, the number of jobs, and the files with the other warnings. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

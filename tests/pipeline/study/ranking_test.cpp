@@ -1064,6 +1064,12 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(warning_lines(rows) ==
         "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
         "warned: warning: largest twist: 200 deg/m\n");
+  RankingRow stale = rows[0];  // its hours are shown, so its warnings mark them, but the run does not print them
+  stale.failure = "stale", stale.stale = true;
+  CHECK(plan_mark(rows[0]) == "!");
+  CHECK(plan_mark(stale) == "!");
+  CHECK(marks_note({stale}).find("skipped instructions x2, twist") != std::string::npos);
+  CHECK(warning_lines({stale, stale}).empty());
   const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind represents the others
   CHECK(warning_lines(many) ==
         "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"
