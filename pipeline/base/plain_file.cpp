@@ -181,6 +181,11 @@ std::filesystem::path as_seen_from(const std::filesystem::path& folder, const st
   return std::filesystem::absolute(file).lexically_normal().lexically_relative(here);
 }
 
+std::filesystem::path seen_file(const std::filesystem::path& folder, const std::filesystem::path& seen) {
+  const std::filesystem::path file = (std::filesystem::weakly_canonical(folder) / seen).lexically_normal();
+  return folder.is_absolute() ? file : std::filesystem::proximate(file);
+}
+
 std::string read_text(const std::filesystem::path& file) { return PlainFile(file).text(); }
 
 std::string beginning_of(const std::filesystem::path& file, std::size_t bytes) {

@@ -85,6 +85,10 @@ class PlainFile {
 /// folder. Errors: std::filesystem::filesystem_error.
 std::filesystem::path as_seen_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
+/// Returns the file that as_seen_from() names in a folder; relative to the current folder if the folder's name is relative. Errors:
+/// std::filesystem::filesystem_error.
+std::filesystem::path seen_file(const std::filesystem::path& folder, const std::filesystem::path& seen);
+
 /// Returns the whole text of a file. Errors: those of PlainFile.
 std::string read_text(const std::filesystem::path& file);
 

@@ -216,10 +216,10 @@ std::string changed_since(const Receipt& receipt, const fs::path& folder, const 
         return what + " was replaced by another program";
       continue;
     }
-    const auto was = digests.find(whole(folder / what));
-    const std::string name = (folder / what).lexically_normal().string();
-    if (was == digests.end()) return name + " came beside the program";
-    if (was->second != digest) return name + " has changed";
+    const fs::path input = seen_file(folder, what);
+    const auto was = digests.find(whole(input));
+    if (was == digests.end()) return input.string() + " came beside the program";
+    if (was->second != digest) return input.string() + " has changed";
   }
   return "job.yaml, or a file that the program reads, has changed or was removed";
 }

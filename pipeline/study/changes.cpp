@@ -92,7 +92,7 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
     if (!receipt || (later && receipt->output != later->input)) break;
     for (const auto& [what, digest] : receipt->made_with) {
       const bool program = what.starts_with("dresslife-");
-      const fs::path file = program ? places.programs / what : (folder / what).lexically_normal();
+      const fs::path file = program ? places.programs / what : seen_file(folder, what);
       const std::string& now = digests.of(file);
       if (now == digest) continue;
       const char* how = program ? "is another program" : now == "absent" ? "is gone" : "has changed";
@@ -102,11 +102,23 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
     for (const fs::path& file : stage == 0 && job.job ? files_beside(*job.job) : std::vector<fs::path>{})
       if (const std::string seen = as_seen_from(folder, file).string();
           std::ranges::none_of(receipt->made_with, [&](const auto& noted) { return noted.first == seen; }))
-        changed.push_back(fmt::format("{} is new beside the program", (folder / seen).lexically_normal().string()));
+        changed.push_back(fmt::format("{} is new beside the program", seen_file(folder, seen).string()));
     later = receipt;
   }
   std::ranges::reverse(changed);
   return changed;
+}
+
+/// Returns the reason why a job without changed keys, files and programs is stale.
+std::string other_reason(const JobState& state, const StudyPlaces& places, const std::string& job) {
+  if (!state_of(places.life(job)).exists()) return "its settings have changed (keep: lives keeps no old ones)";
+  for (std::size_t stage = state.next; stage < stage_count; ++stage) {
+    const StageFiles files = files_of_stage(stage);
+    const fs::path output = places.job(job) / files.output;
+    if (!may_lack(state.keep, stage) && read_receipt(places.job(job) / files.receipt) && !state_of(output).exists())
+      return files.output.string() + (kind_of_name(output) == FileKind::absent ? " is gone" : " is no plain file");
+  }
+  return "its last run did not end";
 }
 
 /// Returns whether the changed key is a name or a source, which have no influence on a life.
@@ -165,10 +177,7 @@ void report_changes(const Study& study, const StudyPlaces& places, std::vector<J
     try {
       std::vector<std::string> changed = changed_settings(job, places);
       for (std::string& file : changed_files(job, places, digests)) changed.push_back(std::move(file));
-      if (changed.empty())  // neither a key of the old settings nor a file changed
-        changed.push_back(state_of(places.life(job.name)).exists()
-                              ? "its last run did not end"
-                              : "its settings have changed (keep: lives keeps no old ones)");
+      if (changed.empty()) changed.push_back(other_reason(states[k], places, job.name));
       states[k].changed = words_of(std::move(changed));
     } catch (const InputError& problem) {
       states[k].changed = problem.what();

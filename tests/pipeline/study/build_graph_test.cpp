@@ -311,7 +311,6 @@ TEST_CASE("build graph: a study takes what a study beside it has made, and both 
   }
 }
 
-TEST_CASE("build graph: a job with other settings of strains takes the simulation of another study") {
 TEST_CASE("build graph: a job that takes results keeps no older output that the other job does not have") {
   for (const bool beside : {false, true}) {
     Bench bench;
@@ -358,6 +357,7 @@ TEST_CASE("build graph: a user's file with the name of a result stops its own jo
     }
 }
 
+TEST_CASE("build graph: a job with other settings of strains takes the simulation of another study") {
   Bench bench;
   bench.run(bench.study({{"one", "strain.gate=2e-4"}}));
   bench.go_beside("other");
@@ -475,18 +475,22 @@ TEST_CASE("build graph: no time decides, only content") {
   }
 }
 
+/// Returns the job with recorded poses of the clamps in place of a robot.
+Job with_poses(Job job, const fs::path& poses) {
+  job.motion.steps.clear();
+  job.motion.clamp_poses = poses;
+  job.robot = {};
+  job.dresspacks[0].routing.base_clamp.reset();
+  job.dresspacks[0].routing.tool_clamp.reset();
+  job.dresspacks[0].routing.mounting_pose.clear();
+  return job;
+}
+
 TEST_CASE("build graph: a file beside the job counts by its content") {
   Bench bench;
   const fs::path poses = bench.scratch().write("poses.csv", "0, 1\n");
   Study study = bench.study({{"one", "simulation.segments=20"}});
-  Job recorded = *study.jobs[0].job;
-  recorded.motion.steps.clear();
-  recorded.motion.clamp_poses = poses;
-  recorded.robot = {};
-  recorded.dresspacks[0].routing.base_clamp.reset();
-  recorded.dresspacks[0].routing.tool_clamp.reset();
-  recorded.dresspacks[0].routing.mounting_pose.clear();
-  study.jobs[0].job = std::make_shared<const Job>(recorded);
+  study.jobs[0].job = std::make_shared<const Job>(with_poses(*study.jobs[0].job, poses));
   bench.run(study);
   REQUIRE(bench.words(study) == Words{"done"});
   const auto before = fs::last_write_time(poses);
@@ -521,6 +525,19 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
             " has changed while the study ran; let nothing change it meanwhile, then run again");
   bench.run(study);
   CHECK(bench.words(study) == Words{"done"});
+}
+
+TEST_CASE("build graph: a changed input is named by its path, also if the folder of results is a link") {
+  Bench bench("link/study");
+  const fs::path poses = bench.scratch().write("poses.csv", "0, 1\n");
+  fs::create_directories(bench.scratch() / "disk/results");
+  fs::create_directory_symlink(bench.scratch() / "disk/results", bench.scratch() / "link");
+  Study study = bench.study({{"one", "simulation.segments=20"}});
+  study.jobs[0].job = std::make_shared<const Job>(with_poses(*study.jobs[0].job, poses));
+  bench.run(study, [&] { bench.scratch().write("poses.csv", "0, 2\n"); });
+  CHECK(bench.states()[0].failure ==
+        "motion.h5: error: " + poses.string() +
+            " has changed while the study ran; let nothing change it meanwhile, then run again");
 }
 
 TEST_CASE("build graph: a failed stage stops its job only, is reported with its reason and tried again") {
@@ -685,23 +702,6 @@ TEST_CASE("build graph: a damaged or foreign result is named and made again") {
   CHECK(states_of(study, copied)[0].compared.empty());
 }
 
-TEST_CASE("build graph: jobs that cannot be run are left out, programs that are not there refused") {
-  Bench bench;
-  Study study = bench.study({{"one", "simulation.segments=20"}});
-  study.jobs.push_back({"broken", {}, "why"});
-  CHECK(bench.run(study).executed == 3);
-  CHECK_FALSE(fs::exists(bench.places().job("broken")));
-  StudyPlaces nowhere = bench.places();
-  nowhere.programs = bench.scratch() / "nowhere";
-  CHECK(message_of([&] { states_of(study, nowhere); }) ==
-        (nowhere.programs / "dresslife-sim").string() +
-            ": error: is not there (the stages stand beside dresslife); build it: scripts/build");
-}
-
-TEST_CASE("receipts: a state suffices once the clock has moved on, a damaged receipt is none") {
-  const Scratch scratch;
-  const fs::path output = scratch.write("out.h5", "content");
-  std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a tick of the file system's clock
 TEST_CASE("build graph: damage that size and times of a file do not show is repaired once a stage has failed") {
   Bench bench;
   bench.run(bench.study({{"one", "simulation.segments=20"}}));
@@ -727,6 +727,23 @@ TEST_CASE("build graph: damage that size and times of a file do not show is repa
   }
 }
 
+TEST_CASE("build graph: jobs that cannot be run are left out, programs that are not there refused") {
+  Bench bench;
+  Study study = bench.study({{"one", "simulation.segments=20"}});
+  study.jobs.push_back({"broken", {}, "why"});
+  CHECK(bench.run(study).executed == 3);
+  CHECK_FALSE(fs::exists(bench.places().job("broken")));
+  StudyPlaces nowhere = bench.places();
+  nowhere.programs = bench.scratch() / "nowhere";
+  CHECK(message_of([&] { states_of(study, nowhere); }) ==
+        (nowhere.programs / "dresslife-sim").string() +
+            ": error: is not there (the stages stand beside dresslife); build it: scripts/build");
+}
+
+TEST_CASE("receipts: a state suffices once the clock has moved on, a damaged receipt is none") {
+  const Scratch scratch;
+  const fs::path output = scratch.write("out.h5", "content");
+  std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a tick of the file system's clock
   write_receipt(scratch / "receipt", {"r", "-", "o", {}}, output);
   const std::optional<Receipt> receipt = read_receipt(scratch / "receipt");
   REQUIRE(receipt);

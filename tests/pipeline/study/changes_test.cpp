@@ -100,6 +100,14 @@ TEST_CASE(
   CHECK(changed() == weld + " has changed");
   fs::remove(scratch / "weld.src");
   CHECK(changed() == weld + " is gone");
+  scratch.write("weld.src", "DEF");
+  fs::create_directories(scratch / "deep/below");
+  fs::create_directory_symlink(scratch / "s", scratch / "deep/below/link");
+  std::vector<JobState> linked(1);
+  linked[0].has_last = true;
+  report_changes(study, {scratch / "deep/below/link", places.programs}, linked);
+  CHECK(linked[0].changed == nothing);
+  fs::remove(scratch / "weld.src");
   scratch.write("bin/dresslife-fatigue", "4"), scratch.write("bin/dresslife-sim", "4"),
       scratch.write("bin/dresslife-strain", "4");
   CHECK(changed() ==
@@ -124,6 +132,33 @@ TEST_CASE("changes: keys of names and sources are named last, as they change no 
   states[0].has_last = true;
   report_changes(study, places, states);
   CHECK(states[0].changed == "strain.gate 1 -> 2; strain.slip free -> stick; robot.name a -> z; and 2 more");
+}
+
+TEST_CASE("changes: a job whose output is gone or replaced by a link is stale because of this file") {
+  const Scratch scratch;
+  Study study{"s", {}, Keep::all};
+  const StudyPlaces places{scratch / "s", scratch / "bin"};
+  const fs::path folder = places.job("one");
+  fs::create_directories(folder / ".stage");
+  study.jobs.push_back({"one", nullptr, ""});
+  SampleLife life;
+  life.segments = 4, life.lines = 1, life.samples = 3;
+  life.job = "a: 1\n";
+  write_sample_life(places.life("one"), life);
+  scratch.write("s/one/job.yaml", "a: 1\n");
+  scratch.write("s/one/strain.h5", "x");
+  write_receipt(folder / files_of_stage(1).receipt, {"recipe", "motion", "strain", {}}, folder / "strain.h5");
+  const auto changed = [&] {
+    std::vector<JobState> states(1);
+    states[0].has_last = true;
+    report_changes(study, places, states);
+    return states[0].changed;
+  };
+  CHECK(changed() == "its last run did not end");  // the first stage has no receipt
+  fs::rename(folder / "strain.h5", scratch / "strain.h5");
+  CHECK(changed() == "strain.h5 is gone");
+  fs::create_symlink(scratch / "strain.h5", folder / "strain.h5");
+  CHECK(changed() == "strain.h5 is no plain file");
 }
 
 }  // namespace
