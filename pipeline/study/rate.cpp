@@ -106,6 +106,9 @@ class RatedStudyMaker {
   }
 
   void add(RatedTest test, Node job, const Node& cable) {
+    // Names of two cables may differ only in letters that do not fit a folder.
+    const std::string name = test.job;
+    for (int n = 2; find_in(made_.tests, &RatedTest::job, test.job); ++n) test.job = fmt::format("{}_{}", name, n);
     StudyJob made;
     made.name = test.job;
     job["dresspack"] = cable;

@@ -3,6 +3,8 @@
 
 #include <regex>
 
+#include "pipeline/base/lists.h"
+#include "pipeline/study/rate.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
@@ -61,6 +63,21 @@ TEST_CASE("relative life: the conductors of a cable are those of its path, whate
     CHECK(relate({{}, order}, {rig}, rows).empty());
     CHECK(rows[0].relative->rig == "flex");
   }
+}
+
+TEST_CASE("rate: cables whose names differ only in letters that no folder's name has get jobs of different names") {
+  const Scratch scratch;
+  const std::string lead =
+      "helix_radius_mm: 8, slack_percent: 1, data_sheet: 4 x 0.25 mm2, "
+      "ratings: [{rig: {kind: torsion, twist_deg_per_m: 270}, cycles: 1e6, source: test}]";
+  const RateStudy rated =
+      rate_study(scratch.write("hose.yaml",
+                               "name: hose\nsource: test\ninner_diameter_mm: 30\ndiameter_mm: 40\nmass_kg_per_m: 1\n"
+                               "bending_stiffness_Nm2: 1\ncomponents:\n  - {name: motor ü, " +
+                                   lead + "}\n  - {name: motor ö, phase_deg: 180, " + lead + "}\n"),
+                 scratch / "no rigs", {});
+  CHECK(mapped(rated.tests, &RatedTest::job) == std::vector<std::string>{"motor___-rating_1", "motor___-rating_1_2"});
+  CHECK(mapped(rated.study.jobs, &StudyJob::name) == mapped(rated.tests, &RatedTest::job));
 }
 
 }  // namespace dresslife::pipeline
