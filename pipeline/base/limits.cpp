@@ -74,7 +74,9 @@ namespace {
 }
 
 void set_memory_limit(std::uint64_t megabytes) {
-  if (megabytes == 0) return;
+  // [MB] Addresses of 60 bits. No processor has longer ones, so a larger limit does not limit anything.
+  constexpr std::uint64_t all_memory = std::uint64_t{1} << 40;
+  if (megabytes == 0 || megabytes >= all_memory) return;
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   const rlim_t most = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + (megabytes << 20);

@@ -61,7 +61,8 @@ struct Adder {
     return number->check(CLI::Validator(
         [low, high, bounds](const std::string& text) {
           Number value{};
-          if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+          const bool wraps = std::is_unsigned_v<Number> && text.find('-') != std::string::npos;  // -1 to 2^64 - 1
+          if (!wraps && CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
           return fmt::format("'{}' is no {}{}", text, std::is_floating_point_v<Number> ? "number" : "whole number",
                              bounds.empty() ? "" : " in " + bounds);
         },

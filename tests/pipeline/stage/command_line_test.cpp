@@ -16,7 +16,7 @@ constexpr std::string_view word(Colour colour) { return colour == Colour::red ? 
 struct Values {
   bool flag = false;
   int whole = 4;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1, limit = 0;
   double length = 0.5;
   std::optional<int> count;
   std::optional<double> time;
@@ -32,6 +32,7 @@ std::vector<Option> options_of(Values& values) {
           {"-f,--flag", "", "a flag", &values.flag},
           {"--whole", "N", "a whole number", &values.whole, {.range = {{1, 8}}}},
           {"--seed", "N", "no negative number", &values.seed, {.range = {{0, 1e9}}}},
+          {"--limit", "N", "no negative number", &values.limit},
           {"--length", "M", "a number", &values.length, {.range = {{0, 1}}}},
           {"--count", "N", "a number that may be absent", &values.count, {.range = {{1, 8}}}},
           {"--time", "S", "a number that may be absent", &values.time, {.needs = "--count"}},
@@ -97,6 +98,7 @@ TEST_CASE("command line: values outside their rules end with status 2") {
                                                                                     {"--whole", "two"},
                                                                                     {"--seed", "-1"},
                                                                                     {"--seed", "1000000001"},
+                                                                                    {"--limit", "-1"},
                                                                                     {"--length", "1.01"},
                                                                                     {"--length", "nan"},
                                                                                     {"--count", "3", "--time", "inf"},
