@@ -1,7 +1,9 @@
 #include "pipeline/stage/memory.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/files/files.h"
 #include "pipeline/stage/stage.h"
@@ -61,6 +63,16 @@ TEST_CASE("memory: a job runs that is within the limit and what is free, and no 
                                          Catch::Contains("are free") && Catch::Contains("choose fewer wires"));
   call.limits.megabytes = 1;  // a smaller need would limit this test program itself
   CHECK_THAT(refusal(1.5), Catch::Contains("--job-memory allows 1 MB") && Catch::Contains("or allow more"));
+}
+
+TEST_CASE("memory: a limit of so many megabytes that their bytes exceed 64 bits does not limit") {
+  struct rlimit before {
+  }, after{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  limit_memory(std::uint64_t{1} << 44);
+  REQUIRE(::getrlimit(RLIMIT_AS, &after) == 0);
+  ::setrlimit(RLIMIT_AS, &before);
+  CHECK(after.rlim_cur == before.rlim_cur);
 }
 
 }  // namespace dresslife::pipeline
