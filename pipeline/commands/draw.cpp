@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "pipeline/base/ownership.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/options.h"
@@ -18,7 +17,7 @@ struct DrawOptions {
 };
 
 int draw(const DrawOptions& options) {
-  if (!options.picture.empty()) check_replaceable(options.picture);
+  if (!options.picture.empty()) check_picture(options.picture);
   std::string faults;
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
   if (!faults.empty()) {  // the picture marks the parts that do not fit

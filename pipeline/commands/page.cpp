@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/commands/options.h"
+#include "pipeline/report/figures.h"
 #include "pipeline/report/job_page.h"
 
 namespace dresslife::pipeline {
@@ -15,9 +17,11 @@ namespace fs = std::filesystem;
 /// Writes the page of any folder that contains a job's results.
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
-  if (kind_of(files.life()) == FileKind::absent)
-    throw InputError({folder.string()}, "holds no life.h5", "name the folder of a job that is done: runs/STUDY/JOB");
-  refresh_job_page(files);
+  life_in(folder);  // refuses a folder without it
+  if (state_of(files.page()).exists() && !is_ours(files.page()) && !replaces_files_of_others())
+    throw InputError({files.page().string()}, "is there already and was not written by dresslife",
+                     "move it away, or replace it with --force");
+  refresh_job_page(files, StaleMark::kept);
   print(shown(files.page().string() + "\n"));
   return 0;
 }

@@ -1,10 +1,11 @@
 #include "pipeline/commands/command.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/ownership.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
 
@@ -20,11 +21,11 @@ struct PlotOptions {
 
 int plot(const PlotOptions& options) {
   const fs::path file = options.picture;
-  if (file.extension() != ".svg" && file.extension() != ".png")
-    throw InputError({file.string()}, "is neither an .svg nor a .png", "name the picture accordingly");
-  check_replaceable(file);
+  check_picture(file);
   Figure what{};
   while (word(what) != options.what) what = static_cast<Figure>(static_cast<int>(what) + 1);
+  if (options.time && what != Figure::scene && what != Figure::deformation)
+    throw InputError({"--time"}, fmt::format("has no effect on the figure {}", word(what)), "leave it out");
   write_picture(file, figure(what, job_files(options.job), options.time));
   return 0;
 }

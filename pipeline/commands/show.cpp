@@ -20,8 +20,11 @@ struct ShowOptions {
 
 int show(const ShowOptions& options) {
   const std::filesystem::path file =
-      kind_of(options.file) == FileKind::folder ? job_files(options.file).life : std::filesystem::path(options.file);
+      kind_of(options.file) == FileKind::folder ? life_in(options.file) : std::filesystem::path(options.file);
   if (file != options.file || is_dresslife_file(file)) {
+    if (options.json || !options.sets.empty())
+      throw InputError({options.file}, "is no job, so --json and --set have no effect",
+                       "leave them out, or name a job");
     print(shown(file_summary(file)));
     return 0;
   }

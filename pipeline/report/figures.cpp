@@ -8,6 +8,7 @@
 
 #include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/files/checksum.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/bending_chart.h"
@@ -112,7 +113,7 @@ std::string deformation_chart(const std::array<Along, 3>& all, const std::vector
 
 std::string deformation_figure(const JobFiles& files, std::optional<double> time) {
   const FileReader strain(files.strain, strain_format());
-  const auto worst = time ? std::nullopt : find_worst(files.life);
+  const auto worst = worst_if_known(files);
   const std::vector<double> times = strain.read<double>("/time");
   const std::size_t sample = nearest_sample(times, time.value_or(worst ? worst->time : 0));
   const std::vector<std::size_t> of_segment = dresspack_of_segments(strain);
@@ -135,9 +136,6 @@ std::string curvature_figure(const JobFiles& files) {
   const std::vector<double>& strain = history.strain;
   const std::vector<double> all = strain_file.read<double>("/deformation/curvature");
   const std::size_t segments = strain_file.rows("/segment/length");
-  if (all.size() != 2 * segments * strain.size())
-    throw InputError({files.strain.string()}, fmt::format("is not the strain file of {}", files.life.string()),
-                     "give files of one job");
   std::vector<double> curvature;
   for (std::size_t k = 0; k < strain.size(); ++k) {
     const double* at = &all[2 * (k * segments + worst.segment)];
@@ -198,6 +196,13 @@ std::string chart(Figure what, const JobFiles& files, std::optional<double> time
 
 }  // namespace
 
+std::filesystem::path life_in(const std::filesystem::path& folder) {
+  const std::filesystem::path life = folder / "life.h5";
+  if (kind_of(life) == FileKind::absent)
+    throw InputError({folder.string()}, "holds no life.h5", "name the folder of a job that is done: runs/STUDY/JOB");
+  return life;
+}
+
 JobFiles job_files(const std::filesystem::path& place) {
   const bool is_folder = kind_of(place) == FileKind::folder;
   const std::filesystem::path folder = is_folder ? place : place.parent_path();
@@ -211,7 +216,31 @@ JobFiles job_files(const std::filesystem::path& place) {
   return files;
 }
 
+void check_of_one_job(const JobFiles& files) {
+  const auto exists = [](const std::filesystem::path& file) { return kind_of(file) != FileKind::absent; };
+  const auto check = [](bool fits, const std::filesystem::path& file, const std::filesystem::path& input) {
+    if (!fits)
+      throw InputError({file.string()}, fmt::format("was not made from {} (they are not of one job)", input.string()),
+                       "run the stages again, one after the other");
+  };
+  const auto check_input = [&](const Format& format, const std::filesystem::path& file,
+                               const std::filesystem::path& input) {
+    if (exists(file) && exists(input))
+      check(FileReader(file, format, FileReader::Scope::attributes).text_attribute("input_sha256") ==
+                sha256_as_checked(input),
+            file, input);
+  };
+  check_input(life_format(), files.life, files.strain);
+  check_input(strain_format(), files.strain, files.motion);
+  if (exists(files.strain) || !exists(files.life) || !exists(files.motion)) return;
+  const FileReader life(files.life, life_format(), {"/time", "/segment/length"}),
+      motion(files.motion, motion_format(), {"/time", "/segment/length"});
+  check(life.rows("/time") == motion.rows("/time") && life.rows("/segment/length") == motion.rows("/segment/length"),
+        files.life, files.motion);
+}
+
 std::string figure(Figure what, const JobFiles& files, std::optional<double> time) {
+  if (what != Figure::cycles && what != Figure::damage) check_of_one_job(files);  // these two are of life.h5 alone
   return standalone(chart(what, files, time));
 }
 

@@ -15,6 +15,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
+#include "pipeline/report/figures.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/life_data.h"
 #include "pipeline/report/motion_checks.h"
@@ -39,18 +40,6 @@ Reader opened(const std::filesystem::path& file, const Format& format, std::vect
   return nullptr;
 }
 
-/// Throws if the files do not have the same number of samples and segments, so that they belong to different motions.
-void check_together(const FileReader& life, const FileReader* other) {
-  if (!other ||
-      (life.rows("/time") == other->rows("/time") && life.rows("/segment/length") == other->rows("/segment/length")))
-    return;
-  throw InputError(
-      other->where(),
-      fmt::format("has {} samples and {} segments, {} has {} and {} (they are not of one job)", other->rows("/time"),
-                  other->rows("/segment/length"), life.where().file, life.rows("/time"), life.rows("/segment/length")),
-      "run the stages again, one after the other");
-}
-
 std::string paragraph(const std::string& words) {
   return words.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(words));
 }
@@ -62,6 +51,11 @@ std::string headline(const RankingRow& row) {
       action.find(row.not_evaluated) != std::string::npos;  // true also if all parts and modes are evaluated
   return fmt::format("<h1>{}</h1>\n<p><b>{}</b></p>\n", escaped(row.job), escaped(action)) + failure_table(row) +
          (named ? "" : paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated)));
+}
+
+std::string tenth_words(double hours) {
+  return std::isfinite(hours) ? fmt::format("10 % would have failed after {}", printed_hours(hours))
+                              : "fewer than 10 % would fail";
 }
 
 /// Returns the distribution of the life, the test that would narrow it, and the worst wire.
@@ -78,13 +72,11 @@ std::string lives(const RankingRow& row) {
     words += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
                          printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.glued_hours[0]))
-    words += fmt::format(
-        "10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
-        "without friction. ",
-        printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
+    words += fmt::format("If everything inside the cables were glued, {}; if it slipped without friction, {}. ",
+                         tenth_words(row.glued_hours[0]), tenth_words(row.free_hours[0]));
   if (const std::string own = own_values_words(row); !own.empty()) words += own + " ";
-  words += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
-  return paragraph(words) + paragraph(uncertainty_words(row)) + (row.damaged() ? paragraph(failure_words(row)) : "");
+  if (row.damaged()) words += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
+  return paragraph(words) + paragraph(uncertainty_words(row)) + paragraph(failure_words(row));
 }
 
 /// Returns the simulated stiffnesses of each dresspack: "E I 25 N m2, G J 20 N m2, E A 1e+05 N"; empty if an older file does not
@@ -180,8 +172,7 @@ class Page {
         strain_(opened(files.strain(), strain_format(), notes_)),
         row_(read_ranking({{files.name, files.life(), ""}}).front()) {
     if (!row_.done()) throw InputError(life_.where(), row_.failure, "run the job again");
-    check_together(life_, motion_.get());
-    check_together(life_, strain_.get());
+    check_of_one_job({files.motion(), files.strain(), files.life()});
     if (!motion_) return;
     if (const std::string limits = broken_limits(*motion_); !limits.empty()) notes_.push_back(limits);
     // The setup comes from life.h5: motion.h5 may belong to another job with the same motion but with other cables in the hose.
@@ -244,30 +235,31 @@ std::string made_from(const JobFolder& files) {
   return xxh3(sources);
 }
 
+constexpr std::string_view before_mark = "<body>\n<p class=\"failed\" id=\"stale\">", behind_mark = "</p>\n";
+
+bool is_marked(const JobFolder& files) { return read_text(files.page()).find(before_mark) != std::string::npos; }
+
 }  // namespace
 
 std::string job_page(const JobFolder& files) { return Page(files).text(made_from(files)); }
 
-bool refresh_job_page(const JobFolder& files) {
-  if (made_from_of(files.page()) == made_from(files)) return false;
+bool refresh_job_page(const JobFolder& files, StaleMark mark) {
+  if (made_from_of(files.page()) == made_from(files) && (mark == StaleMark::kept || !is_marked(files))) return false;
   write_text_if_changed(files.page(), job_page(files), Sync::never);
   return true;
 }
 
 void mark_job_page(const JobFolder& files, const std::string& words) {
-  constexpr std::string_view body = "<body>\n", open = "<p class=\"failed\" id=\"stale\">", close = "</p>\n";
-  const std::string digest = made_from_of(files.page());
-  if (digest.empty()) return remove_job_page(files);  // the page is damaged, or of another version
-  const std::string mark = fmt::format("{}{}{}{}", body, open, escaped(words), close);
+  if (made_from_of(files.page()).empty()) return remove_job_page(files);  // the page is damaged, or of another version
+  const std::string mark = fmt::format("{}{}{}", before_mark, escaped(words), behind_mark);
   const std::string page = read_text(files.page());
   if (page.find(mark) != std::string::npos) return;
   const std::string marked = changed_page(page, [&](std::string& text) {
-    const std::size_t at = text.find(body), behind = at + body.size();
+    constexpr std::string_view unmarked = "<body>\n";
+    const std::size_t mark_at = text.find(before_mark), at = text.find(unmarked);
     if (at == std::string::npos) return;
-    const bool has_one = std::string_view(text).substr(behind).starts_with(open);
-    text.replace(at, (has_one ? text.find(close, behind) + close.size() : behind) - at, mark);
-    // with another digest, the page no longer counts as the page of these results
-    text.replace(text.find(digest), digest.size(), xxh3(digest + mark));
+    const std::size_t end = mark_at == at ? text.find(behind_mark, at) + behind_mark.size() : at + unmarked.size();
+    text.replace(at, end - at, mark);
   });
   write_text_if_changed(files.page(), marked, Sync::never);
 }
@@ -275,7 +267,7 @@ void mark_job_page(const JobFolder& files, const std::string& words) {
 void remove_job_page(const JobFolder& files) { remove_ours(files.page()); }
 
 void remove_old_job_page(const JobFolder& files) {
-  if (made_from_of(files.page()) != made_from(files)) remove_job_page(files);
+  if (made_from_of(files.page()) != made_from(files) || is_marked(files)) remove_job_page(files);
 }
 
 }  // namespace dresslife::pipeline

@@ -22,18 +22,19 @@ struct JobFolder {
 /// and names the missing files. Errors: InputError when a file cannot be read or the files belong to different jobs.
 std::string job_page(const JobFolder& files);
 
-/// Writes the page if the results of the job or this program changed. Returns whether it was written. Errors: InputError as
-/// in job_page(), or when the page cannot be written.
-bool refresh_job_page(const JobFolder& files);
+enum class StaleMark { removed, kept };
 
-/// Marks an existing page as stale, with `words` at its head. refresh_job_page() replaces it as soon as an up-to-date
-/// result exists. Errors: InputError when it cannot be written.
+/// Writes the page if the results of the job or this program changed, or to remove a mark of mark_job_page(). Returns whether it
+/// was written. Errors: InputError as in job_page(), or when the page cannot be written.
+bool refresh_job_page(const JobFolder& files, StaleMark mark = StaleMark::removed);
+
+/// Marks an existing page as stale, with `words` at its head. Errors: InputError when it cannot be written.
 void mark_job_page(const JobFolder& files, const std::string& words);
 
 /// Removes a page; a file of the user stays. Errors: InputError when it cannot be removed.
 void remove_job_page(const JobFolder& files);
 
-/// Removes a page that is damaged or does not belong to the results beside it. Errors: InputError when it cannot be removed.
+/// Removes a page that is damaged, marked, or does not belong to the results beside it. Errors: InputError when it cannot be removed.
 void remove_old_job_page(const JobFolder& files);
 
 }  // namespace dresslife::pipeline

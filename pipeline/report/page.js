@@ -45,7 +45,9 @@ class Closings {
     return of.sum[until(now + this.window)] - of.sum[until(now - this.window)];
   }
   most() {
-    return Math.max(0, ...this.of.map((of, segment) => Math.max(0, ...of.time.map(time => this.around(segment, time)))));
+    let most = 0;
+    this.of.forEach((of, segment) => of.time.forEach(time => most = Math.max(most, this.around(segment, time))));
+    return most;
   }
 }
 const closings = life ? new Closings(life.closings, life.segments) : null;
@@ -349,6 +351,7 @@ window.dresslife = {
   viewer: () => viewer,
   timeline: () => timeline,
   clamps: () => clamps,
+  closings,
   motion,
   life,
   data

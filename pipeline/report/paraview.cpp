@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <iterator>
-#include <memory>
 #include <vector>
 
 #include "pipeline/base/plain_file.h"
@@ -22,17 +21,6 @@ namespace fs = std::filesystem;
 /// Returns the path of a file relative to the XDMF file, in the form that its reader needs in front of a dataset's path.
 std::string name_from(const fs::path& output, const fs::path& file) {
   return escaped(fs::proximate(file, output.has_parent_path() ? output.parent_path() : fs::path(".")).generic_string());
-}
-
-/// Returns the other file of a job, if it exists and belongs to the same motion; else null.
-std::unique_ptr<FileReader> beside(const fs::path& file, const Format& format, const FileReader& motion) {
-  if (kind_of(file) == FileKind::absent) return nullptr;
-  auto reader = std::make_unique<FileReader>(file, format);
-  if (reader->rows("/time") != motion.rows("/time") ||
-      reader->rows("/segment/length") != motion.rows("/segment/length"))
-    throw InputError({file.string()}, fmt::format("is of another motion than {}", motion.where().file),
-                     "give files of one job");
-  return reader;
 }
 
 /// References to one row of a dataset, or to one number per segment in one row.
@@ -182,7 +170,8 @@ struct HoseLines {
 
 std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const FileReader motion(files.motion, motion_format());
-  const auto strain = beside(files.strain, strain_format(), motion), life = beside(files.life, life_format(), motion);
+  check_of_one_job(files);
+  const bool strain = kind_of(files.strain) != FileKind::absent, life = kind_of(files.life) != FileKind::absent;
   const Setup setup = setup_from(stored_job(motion));
   const std::vector<double> times = motion.read<double>("/time");
   const std::vector<std::size_t> of_segment = dresspack_of_segments(motion);

@@ -174,7 +174,8 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
                           const std::string& marked_dresspack) {
   const FileReader file(motion_file, motion_format());
   const Setup setup = setup_from(stored_job(file));
-  const std::size_t sample = nearest_sample(file.read<double>("/time"), time);
+  const std::vector<double> times = file.read<double>("/time");
+  const std::size_t sample = nearest_sample(times, time);
   std::vector<Stroke> strokes;
   const std::vector<Frame> frames = frames_at(file, sample);
   add_robot(strokes, frames, setup.robot);
@@ -197,7 +198,7 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
   return fmt::format(
       "<svg viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\"><title>Robot and dresspack at {:.2f} "
       "s</title>\n{}{}</svg>\n",
-      picture_width, height, time, body, scale_bar(view, height));
+      picture_width, height, times[sample], body, scale_bar(view, height));
 }
 
 }  // namespace dresslife::pipeline

@@ -129,10 +129,13 @@ TEST_CASE("draw: a cable alone has the mass of its construction") {
 TEST_CASE("draw replaces pictures and nothing else") {
   Scratch scratch;
   scratch.write("mine.yaml", "keep: me\n");
-  const Outcome refused = run(scratch, "dresslife", "draw control_cable -o mine.yaml");
+  scratch.write("mine.svg", "keep: me\n");
+  const Outcome refused = run(scratch, "dresslife", "draw control_cable -o mine.svg");
   CHECK(refused.status == 1);
-  CHECK(refused.err.find("mine.yaml: error: is there already and was not written by dresslife") == 0);
-  CHECK(content(scratch / "mine.yaml") == "keep: me\n");
+  CHECK(refused.err.find("mine.svg: error: is there already and was not written by dresslife") == 0);
+  CHECK(content(scratch / "mine.svg") == "keep: me\n");
+  CHECK(run(scratch, "dresslife", "draw control_cable -o cable.pdf").err ==
+        "cable.pdf: error: is neither an .svg nor a .png; name the picture accordingly\n");
   must_run(scratch, "dresslife", "draw control_cable -o cable.svg");
   CHECK(run(scratch, "dresslife", "draw sensor_cable -o cable.svg").status == 0);
   CHECK(content(scratch / "cable.svg").find("sensor_cable") != std::string::npos);

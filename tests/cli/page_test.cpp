@@ -59,7 +59,9 @@ const char* what_a_reader_does = R"(
   await evaluate('dresslife.setTime(0)');
   const life = await evaluate('dresslife.life.life_hours');
   const rows = await evaluate('dresslife.life.strains.rows.length');
-  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life, frame, coloured, shapes, cycles, across, row, sampled].join(' ');
+  // A segment without damage, which has no closings, leaves the scale of damage now.
+  const sparse = await evaluate('delete dresslife.closings.of[0] && dresslife.closings.most() > 0');
+  return [colours > 50, segment, Math.abs(clicked - .25) < .01, playing, moved, stopped, rows > 0, damage, life, frame, coloured, shapes, cycles, across, row, sampled, sparse].join(' ');
 )";
 
 }  // namespace
@@ -87,6 +89,14 @@ TEST_CASE("a run writes a page for each job, the report links to it, and it is w
   CHECK(nothing.status == 1);
   CHECK(nothing.err == "runs/job: error: holds no life.h5; name the folder of a job that is done: runs/STUDY/JOB\n");
 
+  fs::rename(page, scratch / "page.html");
+  scratch.write("runs/job/job/page.html", "mine");
+  CHECK(
+      run(scratch, "dresslife", "page runs/job/job").err ==
+      "runs/job/job/page.html: error: is there already and was not written by dresslife; move it away, or replace it with "
+      "--force\n");
+  fs::rename(scratch / "page.html", page);
+
   // Without three.js a run succeeds as well.
   REQUIRE(run_shell(scratch, "DRESSLIFE_THREE=/nowhere '" DRESSLIFE_BIN_DIR "/dresslife' run job.yaml").status == 0);
   CHECK(content(page).size() < 500'000);
@@ -106,15 +116,22 @@ TEST_CASE("a run writes a page for each job, the report links to it, and it is w
   const std::string unmarked = content(page);
   CHECK(mark("0.95") == "stale: since this result routing.free_length_m 0.9 -&gt; 0.95");
   CHECK(mark("0.97") == "stale: since this result routing.free_length_m 0.9 -&gt; 0.97");
+  const std::string marked = content(page);
+  must_run(scratch, "dresslife", "page runs/job/job");
+  CHECK(content(page) == marked);
   CHECK(mark("0.9") == "");
   CHECK(content(page) == unmarked);
 
-  // Files of different motions make no page.
-  must_run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5");
+  // Files of different motions make no page and no figure, also with equal numbers of samples and segments.
+  must_run(scratch, "dresslife-sim", "job.yaml --set routing.free_length_m=0.92 -o other.h5");
   fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5", fs::copy_options::overwrite_existing);
-  const Outcome mixed = run(scratch, "dresslife", "page runs/job/job");
-  CHECK(mixed.status == 1);
-  CHECK(mixed.err.find("they are not of one job") != std::string::npos);
+  for (const std::string command :
+       {"page runs/job/job", "export runs/job/job --paraview a.xdmf", "plot runs/job/job --what scene -o a.svg"}) {
+    const Outcome mixed = run(scratch, "dresslife", command);
+    CHECK(mixed.status == 1);
+    CHECK_THAT(mixed.err, Catch::Contains("strain.h5: error: was not made from runs/job/job/motion.h5"));
+  }
+  must_run(scratch, "dresslife", "plot runs/job/job --what cycles -o a.svg");
 }
 
 TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the numbers of life.h5") {
@@ -132,10 +149,10 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   std::string colours, segment, jumped, playing, moved, stopped, histories;
   std::string frame, coloured, shapes;
   double damage = 0, hours = 0, of_cycles = 0;
-  std::string across, worst, sampled;
+  std::string across, worst, sampled, sparse;
   double of_worst = 0;
   words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >>
-      coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
+      coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled >> sparse;
   WARN("a frame took " << frame << " ms");
   CHECK(colours == "true");
   CHECK(segment == "3");
@@ -156,6 +173,7 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   CHECK(worst == component);
   CHECK(of_worst == life.number_attribute("damage_per_repeat"));
   CHECK(sampled == "true");  // no history is reconstructed from its turning points
+  CHECK(sparse == "true");
 }
 
 TEST_CASE("pages print the numbers of the files: hours, shares of damage, draws") {

@@ -103,6 +103,10 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
   Scratch scratch;
   write_spindle_job(scratch);
   must_run(scratch, "dresslife", "run job.yaml --quiet");
+  const std::string worst =
+      pipeline::FileReader(scratch / "runs/job/job/life.h5", pipeline::life_format()).text_attribute("worst_dresspack");
+  must_run(scratch, "dresslife", "plot runs/job/job --what deformation --time 1 -o deformed.svg");
+  CHECK(content(scratch / "deformed.svg").find("Deformation of the " + worst + " at 1.00 s") != std::string::npos);
   must_run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf");
   if (std::system("command -v pvpython >/dev/null 2>&1") != 0) {
     WARN("pvpython is not installed: ParaView was not asked");

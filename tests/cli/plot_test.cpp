@@ -37,6 +37,11 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
   CHECK(run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status == 0);
   CHECK(content(scratch / "d.svg").find("at 0.50 s") != std::string::npos);
 
+  must_run(scratch, "dresslife", "plot " + job + " --what scene --time 1e9 -o s.svg");
+  CHECK(content(scratch / "s.svg").find("dresspack at 1.00 s") != std::string::npos);  // the last sample
+  CHECK(run(scratch, "dresslife", "plot " + job + " --what cycles --time 5 -o s.svg").err ==
+        "--time: error: has no effect on the figure cycles; leave it out\n");
+
   const Outcome no_result = run(scratch, "dresslife", "plot job.yaml --what strain -o s.svg");
   CHECK(no_result.status == 1);
   CHECK(no_result.err.find("job.yaml: error: is neither a job's folder nor one of its files; name") == 0);
@@ -84,6 +89,9 @@ TEST_CASE("show reports what lies in a file, with shapes, units, ranges and mean
   }
   CHECK(run(scratch, "dresslife", "show runs/job/job").out ==
         run(scratch, "dresslife", "show runs/job/job/life.h5").out);
+  CHECK(run(scratch, "dresslife", "show runs/job/job --json").err ==
+        "runs/job/job: error: is no job, so --json and --set have no effect; leave them out, or name a job\n");
+  CHECK(run(scratch, "dresslife", "show runs/job").err.find("runs/job: error: holds no life.h5; name") == 0);
   const std::string motion = run(scratch, "dresslife", "show runs/job/job/motion.h5").out;
   CHECK(motion.find("/segment/length          (segment 12) 0.075") != std::string::npos);  // 0.9 m
   CHECK(motion.find("  m\n") != std::string::npos);

@@ -239,6 +239,7 @@ TEST_CASE("job page: without damage, without wires, with several dresspacks") {
   const std::filesystem::path folder = scratch / "";
   SampleLife life;
   SECTION("no damage") { life.repeats = std::numeric_limits<double>::infinity(); }
+  SECTION("no failure") { life.planned_hours = std::numeric_limits<double>::infinity(); }
   SECTION("no wires") { life.wires = false; }
   SECTION("two dresspacks") { life.dresspacks = {"hose", "sensor <cable>"}; }
   SECTION("one sample") { life.samples = 1; }
@@ -247,6 +248,7 @@ TEST_CASE("job page: without damage, without wires, with several dresspacks") {
   const std::size_t begin = page.find("id=\"data\">");
   const std::string data = page.substr(begin, page.find("</script>", begin) - begin);
   for (const char* word : {"nan", "inf", "<"}) CHECK(data.find(word) == std::string::npos);
+  CHECK(page.find("after no damage") == std::string::npos);
 }
 
 }  // namespace
