@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "pipeline/advise/plan/duty_words.h"
@@ -21,7 +20,11 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 3> always_text{"job", "settings", "message"};
+/// Returns whether a column contains text, also if a cell is a name like "0012".
+bool is_of_text(const std::string& title) {
+  const RankingColumn* const column = find_in(ranking_columns(), &RankingColumn::name, title);
+  return title == "name" || title == "duty" || (column && column->unit == "text");
+}
 
 Json json_of_cell(const std::string& text) {
   const std::optional<double> number = number_in(text);
@@ -37,13 +40,14 @@ Json empty_object() { return Json(std::initializer_list<std::pair<std::string_vi
 std::vector<Json> rows_of_csv(const std::string& csv) {
   CsvReader reader(csv, "table", ",");
   const CsvRow titles = reader.next();
+  const std::vector<bool> is_text = mapped(titles, [](const auto& title) -> bool { return is_of_text(title.text); });
   std::vector<Json> rows;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
     Json object = empty_object();
-    for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
-      const bool text = std::ranges::find(always_text, titles[k].text) != always_text.end();
-      object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
-    }
+    for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k)
+      object.add(titles[k].text, is_text[k]            ? text_or_null(row[k].text)
+                                 : row[k].text.empty() ? null()
+                                                       : json_of_cell(row[k].text));
     rows.push_back(object);
   }
   return rows;

@@ -206,6 +206,9 @@ int plan(const PlanOptions& options) {
   if (!fleet.unused.empty())
     write_stderr(shown(
         fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
+  if (!fleet.comments.empty())
+    write_stderr(shown(fmt::format("note: {}: comments, because they begin with #: lines {}\n", options.fleet,
+                                   fmt::join(fleet.comments, ", "))));
   const std::set<std::string> planned = needed;
   bool has_changes = changed.has_value();  // whether the duty of a dresspack changes
   for (const Duty& duty : file.duties)

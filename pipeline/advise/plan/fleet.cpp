@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <sstream>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
@@ -154,6 +155,18 @@ bool says_removed(const std::string& title) {
       [&](std::string_view word) { return title.starts_with(word); });
 }
 
+/// Returns the lines below the titles that begin with # and have as many cells as the titles.
+std::vector<std::size_t> commented_rows(const std::string& text, const CsvRow& titles, char separator) {
+  std::vector<std::size_t> lines;
+  std::istringstream in(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);)
+    if (++number > static_cast<std::size_t>(titles.front().line) && trimmed(line).starts_with('#') &&
+        std::ranges::count(line, separator) + 1 == std::ssize(titles))
+      lines.push_back(number);
+  return lines;
+}
+
 Day needed_day(const std::string& text) {
   const bool two = text.size() > 11 && exported_day(text.substr(0, 10)) && exported_day(text.substr(text.size() - 10));
   if (const std::optional<Day> day = exported_day(text); day && !two) return *day;
@@ -216,6 +229,7 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
                          "give each dresspack a name of its own");
     });
   }
+  fleet.comments = commented_rows(text, titles, reader.separator());
   problems.finish(file.string());
   if (fleet.rows.empty()) throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per dresspack");
   return fleet;

@@ -42,8 +42,9 @@ struct Installed {
 struct Fleet {
   std::vector<Installed> rows;
   bool has_costs = false;
-  std::vector<std::string> unused;     ///< titles of columns that a plan does not need
-  std::vector<std::string> renamed{};  ///< "installed = 'Einbaudatum'": columns under another title
+  std::vector<std::string> unused;      ///< titles of columns that a plan does not need
+  std::vector<std::string> renamed{};   ///< "installed = 'Einbaudatum'": columns under another title
+  std::vector<std::size_t> comments{};  ///< lines that begin with # and otherwise are rows
 };
 
 /// Reads a fleet. Titles may have any capitals, and blanks for underscores. Errors: InputError with line and column, for all rows
