@@ -61,7 +61,8 @@ std::string slip_words(const std::string& slip) {
 std::vector<LearnedSetting> settings_of(const Job& job) {
   std::vector<LearnedSetting> settings;
   for (const MountedDresspack& mounted : job.dresspacks)
-    add_once(settings, LearnedSetting{std::string(slip_key), slip_of(job, mounted.dresspack)});
+    if (std::string slip = slip_of(job, mounted.dresspack); !slip.empty())  // empty: nothing in the dresspack can slip
+      add_once(settings, LearnedSetting{std::string(slip_key), std::move(slip)});
   const auto add = [&](const Node& section, const std::string& name, std::initializer_list<const char*> keys) {
     for (const char* key : keys)
       if (const Node* value = section.find(key)) settings.push_back({name + "." + key, value->text});

@@ -267,6 +267,7 @@ std::string strain_chart(const LifeSummary& life) {
   if (life.time.size() < 2) return "";
   constexpr double label_row = 17, strain_height = 230, strip_height = 17, share_height = 76, gap = 7;
   const auto [low, high] = std::ranges::minmax_element(life.strain);
+  if (*low == *high) return "";  // no wire is strained
   const std::vector<ProgramRun> runs = program_runs(life);
   PlotAxis time{"time [s]", life.time.front(), life.time.back()};
   Panel strain{chart_left,    0,    chart_panel,

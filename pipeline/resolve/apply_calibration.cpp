@@ -166,6 +166,9 @@ void apply_ratings(Node& tree, Job& job) {
   if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
   const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
   if (!std::filesystem::exists(file)) return remove_ratings(job);  // a catalogue of the user
+  if (std::ranges::all_of(job.dresspacks,
+                          [](const MountedDresspack& mounted) { return mounted.dresspack.components.empty(); }))
+    return remove_ratings(job);  // no cable to which a rating applies
   Node written = read_document(file);
   Calibration& calibration = job.calibration.emplace();
   read_fields(written, calibration);

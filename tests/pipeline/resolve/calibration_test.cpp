@@ -341,6 +341,12 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
     CHECK(plain.fatigue.strength_factor == 1);
     CHECK(plain.strain.factors == StrainFactors{});
   }
+  // In a hose without parts nothing slips, so that strain.slip excludes no rating.
+  Node bare = parse_yaml(sample_job, "test.yaml");
+  std::erase_if(bare["dresspack"].entries, [](const Entry& entry) { return entry.key == "components"; });
+  std::erase_if(bare.entries, [](const Entry& entry) { return entry.key == "strain"; });
+  const Job hose = job_from(bare);
+  CHECK((!hose.calibration && hose.uncertainty.ratings_left_out.empty()));
   // Only ratings that a setting excludes leave a trace in the job, for a warning.
   CHECK(soft_copper({"uncertainty.ratings=none"}).uncertainty.ratings_left_out.empty());
   const Job elastic = soft_copper({"fatigue.stress=elastic"});
