@@ -43,8 +43,7 @@ int clean(const StudyOptions& options) {
 Command clean_command() {
   const auto options = std::make_shared<StudyOptions>();
   return {"clean", "remove what a study does not keep (its key keep), and the results of jobs that it has no more",
-          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}}, study_options(*options)}),
-          [options] { return clean(*options); }};
+          joined({{study_or_job(*options)}, study_options(*options)}), [options] { return clean(*options); }};
 }
 
 }  // namespace dresslife::pipeline

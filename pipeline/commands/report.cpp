@@ -64,8 +64,7 @@ int report(const StudyOptions& options) {
 Command report_command() {
   const auto options = std::make_shared<StudyOptions>();
   return {"report", "rank and report what has been computed, without running anything",
-          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
-                  study_options(*options)}),
+          joined({{study_or_job(*options), json_option(options->json)}, study_options(*options)}),
           [options] { return report(*options); }};
 }
 

@@ -141,9 +141,11 @@ int run(const RunArguments& options) {
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
   write_stderr(shown(problem_words(study)));
-  write_stderr(fmt::format(
-      "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
-      options.study, failed, study.jobs.size()));
+  const auto refused = std::ranges::count_if(study.jobs, [](const StudyJob& job) { return !job.failure.empty(); });
+  write_stderr(fmt::format("{}: error: {} of {} jobs failed (their reasons are in the table); {}\n", options.study,
+                           failed, study.jobs.size(),
+                           failed > refused ? "see the log in each job's folder"
+                                            : "none of them ran: correct the settings in these reasons"));
   for (const fs::path& page : previews)
     write_stderr(
         fmt::format("note: what the simulation refuses can be seen in {}; after a change: dresslife preview {}\n",

@@ -18,7 +18,7 @@ int status(const StudyOptions& options) {
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const StateWords words =
-        job.failure.empty() ? standing.states[k].words() : StateWords{"failed", first_problem(job)};
+        job.failure.empty() ? standing.states[k].words() : StateWords{"refused", first_problem(job)};
     done += standing.states[k].done();
     jobs.add(job.name, words);
   }
@@ -31,9 +31,8 @@ int status(const StudyOptions& options) {
 
 Command status_command() {
   const auto options = std::make_shared<StudyOptions>();
-  return {"status", "print which jobs of a study are done, stale, failed or to do",
-          joined({{{"study", "", "STUDY.yaml", &options->study, {.required = true}}, json_option(options->json)},
-                  study_options(*options)}),
+  return {"status", "print which jobs of a study are done, stale, failed, refused or to do",
+          joined({{study_or_job(*options), json_option(options->json)}, study_options(*options)}),
           [options] { return status(*options); }};
 }
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/plain_file.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +11,18 @@
 namespace dresslife::pipeline {
 namespace {
 
+/// Returns a warning with the path of its file from the folder of the user. A stage states the path from the folder of the study.
+Warning placed(Warning warning, const RankingRow& row) {
+  const std::filesystem::path place = row.life_file.parent_path().parent_path() / warning.where,
+                              file = place.string().substr(0, place.string().find(".yaml:") + 5);
+  if (warning.where.find(".yaml:") != std::string::npos && kind_of(file) == FileKind::file)
+    warning.where = place.string();
+  return warning;
+}
+
 /// jobs: words that precede the name of the job; may be empty.
 std::string lines_of(const RankingRow& row, const Warning& warning, const std::string& jobs = "") {
-  return Warning{warning.kind, jobs + row.job, warning.text()}.paragraph();
+  return Warning{warning.kind, jobs + row.job, placed(warning, row).text()}.paragraph();
 }
 
 /// Returns the warning of a kind of the last job that has one, and the number of these jobs. The last job of a ranking has the

@@ -358,3 +358,13 @@ TEST_CASE("the preview of a job that failed says nothing beside the table's reas
   CHECK(failed.err ==
         "bad.yaml: error: 1 of 1 jobs failed (their reasons are in the table); see the log in each job's folder\n");
 }
+
+TEST_CASE("a study that refuses all jobs names no logs, and its status is that of a dry run") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("bad.yaml", "base: job.yaml\nvary: {dresspack.mass_kg_per_m: [-1, -2]}\n");
+  CHECK_THAT(run(scratch, "dresslife", "run bad.yaml --quiet").err,
+             Catch::Contains("2 of 2 jobs failed (their reasons are in the table); none of them ran: correct"));
+  for (const std::string command : {"status bad.yaml", "run bad.yaml -n"})
+    CHECK_THAT(run(scratch, "dresslife", command).out, Catch::Contains(" refused "));
+}
