@@ -394,15 +394,21 @@ void find_ratings(Search& found) {
   }
 }
 
+/// Returns "corkscrew (welding hose)"; without the name if the job has one dresspack.
+std::string of_dresspack(const std::string& mode, const pipeline::Job& job, std::size_t dresspack) {
+  const std::string name = pipeline::name_among(job, dresspack);
+  return name.empty() ? mode : fmt::format("{} ({})", mode, name);
+}
+
 /// Corkscrew of each dresspack with loose cables: of the cable with the smallest margin. tension: see corkscrew.h.
 void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tension) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     const std::optional<Corkscrew> worst = corkscrew(found.strain, found.job, d, tension);
     if (!worst) {
-      found.left_out.push_back(UnvalidatedMode::corkscrew);
+      found.left_out.push_back(of_dresspack(UnvalidatedMode::corkscrew, found.job, d));
       continue;
     }
-    if (!worst->knows_turn) found.left_out.push_back("corkscrew after many repeats");
+    if (!worst->knows_turn) found.left_out.push_back(of_dresspack("corkscrew after many repeats", found.job, d));
     UnvalidatedMode& mode = found.add(UnvalidatedMode::corkscrew, d);
     mode.place = cable_in_words(found.job, found.strain.read<std::string>("/cable/name")[worst->cable]);
     mode.time = found.time[worst->sample];
@@ -521,12 +527,12 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
   };
   std::vector<std::string> bare;  // cables whose jackets have no life
   std::size_t cables = 0;
-  bool kinks = false;
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
-    const pipeline::Dresspack& dresspack = mounted.dresspack;
+  std::vector<std::string> kinks;
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    const pipeline::Dresspack& dresspack = job.dresspacks[d].dresspack;
     for (const pipeline::Component* const part : parts_of(dresspack))
       if (part->plain) add_plain(*part);
-    kinks |= is_hose(dresspack) && !is_smooth_hose(dresspack);
+    if (is_hose(dresspack) && !is_smooth_hose(dresspack)) kinks.push_back(of_dresspack("kinks of the hose", job, d));
     if (!dresspack.core_parts.empty())
       add(dresspack.core_parts);
     else if (dresspack.core_diameter > 0 && dresspack.core_components.empty())
@@ -552,7 +558,7 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
     add("jackets of the cables");
   else
     for (const std::string& cable : bare) add("jacket of " + cable);
-  if (kinks) add("kinks of the hose");
+  for (const std::string& hose : kinks) add(hose);
   for (const std::string& mode : left_out) add(mode);
   for (const char* always : {"fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));

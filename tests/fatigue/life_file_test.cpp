@@ -664,6 +664,10 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
   const Result first = run(folder, absurd, two, "first.h5");
   REQUIRE(first.notes.warnings.size() == 1);
   CHECK_THAT(first.notes.warnings[0].words, Catch::Contains("in segment 3 from the tool"));
+  two.dresspacks[0].name = "one", two.dresspacks[1].dresspack.inner_diameter = 0.05;
+  const Result hose = run(folder, absurd, two, "hose.h5");
+  CHECK_THAT(FileReader(hose.file, pipeline::life_format()).text_attribute("not_evaluated"),
+             Catch::Contains(", kinks of the hose (other), corkscrew (one), corkscrew (other), "));
 }
 
 TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is warned of") {
