@@ -30,7 +30,8 @@ std::string in_words(double value, const std::string& unit) {
 std::string repeats_words(const FileReader& file) {
   if (!file.has_attribute("repeats")) return "";
   const double repeats = file.number_attribute("repeats");
-  if (!file.has_attribute("repeat_distance")) return "The motion does not end where it begins and was run once.";
+  if (!file.has_attribute("repeat_distance"))  // a prescribed deformation has no time step and is not repeated
+    return file.has_attribute("time_step") ? "The motion does not end where it begins and was run once." : "";
   return fmt::format("Repeat {:.0f} of the motion; the dresspack ended it {:.2g} mm from where it began it.", repeats,
                      1e3 * file.number_attribute("repeat_distance"));
 }

@@ -12,7 +12,7 @@ namespace {
 /// Writes one sample of two segments of half a metre; with two checks, or in the form of an older version.
 void write_motion(const std::filesystem::path& name, bool checked, bool returns = true,
                   const std::vector<double>& values = {0.25, 3.14159265358979}, double position = 0.9,
-                  const std::vector<std::int32_t>& dresspacks = {}) {
+                  const std::vector<std::int32_t>& dresspacks = {}, bool simulated = true) {
   FileWriter file(name, motion_format());
   file.set_axis("segment", 2);
   file.set_axis("clamp", 2);
@@ -43,6 +43,7 @@ void write_motion(const std::filesystem::path& name, bool checked, bool returns 
     }
     file.attribute("repeats", 3.0);
     if (returns) file.attribute("repeat_distance", 2e-4);
+    if (simulated) file.attribute("time_step", 1e-4);
   }
   for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
   file.commit();
@@ -62,6 +63,8 @@ TEST_CASE("motion checks: a table in the units of cell designers") {
   CHECK(contains(table, "<td>largest net twist</td><td class=\"number\">0.50 turns</td><td class=\"number\"></td>"));
   write_motion(scratch / "once.h5", true, false);
   CHECK(contains(check_table(scratch / "once.h5"), "was run once"));
+  write_motion(scratch / "prescribed.h5", true, false, {0.25, 3.14159265358979}, 0.9, {}, false);
+  CHECK_FALSE(contains(check_table(scratch / "prescribed.h5"), "was run once"));
 }
 
 TEST_CASE("motion checks: nothing has no sign") {
