@@ -25,7 +25,7 @@ constexpr GlossaryEntry entries[] = {
     {"damage", "share of the life that a cycle, or a repeat of the motion, uses up; the life ends at 1 (Miner)"},
     {"dresspack", "the hose on a robot with everything in it: cables, water and air hoses"},
     {"ESTIMATE", "a number without a measurement on this dresspack; the life depends on it"},
-    {"fails first", "what fails first in most of the samples, and in which share of them"},
+    {"fails first", "what fails first in most of the samples that fail, and in which share of them"},
     {"force warning", "the model computes a force that would tear a cable: do not plan with the hours"},
     {"free length", "length of dresspack between its clamps (routing.free_length_m)"},
     {"friction inside", "between wires, conductors and cables; it decides how much of a bend stretches the wires"},

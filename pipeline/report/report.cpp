@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -115,10 +116,10 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     const std::string worst =
         fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string failing = escaped(failing_place_words(row));  // the worst wire may be in another cable
-    const std::string where = !row.has_wires()  ? "no wires"
-                              : !row.damaged()  ? "no wire is damaged"
-                              : failing.empty() ? worst
-                                                : failing;
+    const std::string where = !row.has_wires()   ? "no wires"
+                              : !failing.empty() ? failing
+                              : row.damaged()    ? worst
+                                                 : "no wire is damaged";
     const std::string moved =
         !row.damaged() ? ""
                        : fmt::format("{}{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
@@ -128,7 +129,7 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
                                   ? ""
                                   : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
     const std::string fails_first =
-        row.failing_mode.empty() || !row.damaged()
+        row.failing_mode.empty()
             ? ""
             : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
     const std::string unvalidated =
@@ -251,6 +252,15 @@ std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
          wide_table({"dresspack", "#life [h]", "#repeats", "#damage per repeat"}, rows);
 }
 
+/// Returns "by 3 h in 10 %, 5 h in half, 9 h in 90 % of such dresspacks", without infinite lives.
+std::string shares_words(const std::array<double, 3>& lives) {
+  constexpr std::array shares{"10 %", "half", "90 %"};
+  std::string words;
+  for (std::size_t i = 0; i < shares.size() && std::isfinite(lives[i]); ++i)
+    words += fmt::format("{} {} in {}", i == 0 ? "by" : ",", printed_hours(lives[i]), shares[i]);
+  return (words.empty() ? "in fewer than 10 %" : words) + " of such dresspacks";
+}
+
 std::string facts(const RankingRow& row) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
@@ -260,12 +270,12 @@ std::string facts(const RankingRow& row) {
     const std::array<double, 3>& lives = row.planned_hours;
     fact("life",
          std::isinf(lives[0])
-             ? "no damage at any place to the share of wires with which a conductor fails"
+             ? "in more than 90 % of the samples no conductor fails"
              : fmt::format("<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
-                           "conductor that has lost its share of wires at one place; {} until half have, {} until "
-                           "90 %{}",
-                           printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
-                           printed_hours(lives[2]),
+                           "conductor that has lost its share of wires at one place{}{}{}",
+                           printed(lives[0]), calendar_words(row.planned_months),
+                           std::isinf(lives[1]) ? "" : fmt::format("; {} until half have", printed_hours(lives[1])),
+                           std::isinf(lives[2]) ? "" : fmt::format(", {} until 90 %", printed_hours(lives[2])),
                            row.failing_conductor.empty() ? "" : "; likeliest " + escaped(failing_place_words(row))));
   }
   fact(row.planned() ? "worst wire" : "life",
@@ -278,15 +288,13 @@ std::string facts(const RankingRow& row) {
                          printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
   if (!std::isnan(row.scatter_hours[0]))
     fact("by the scatter of wires alone",
-         fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, everything else with the job's own values",
-                     printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
-                     printed_hours(row.scatter_hours[2])));
+         shares_words(row.scatter_hours) + ", everything else with the job's own values");
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
   if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
   if (!row.failing_mode.empty())
-    fact("fails first",
-         fmt::format("{}, in {:.0f} % of the samples{}{}", escaped(row.failing_mode), 100 * row.failing_mode_share,
-                     row.failing_conductor.empty() ? "" : ", likeliest ", escaped(failing_place_words(row))));
+    fact("fails first", fmt::format("{}, in {:.0f} % of the samples that fail{}{}", escaped(row.failing_mode),
+                                    100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
+                                    escaped(failing_place_words(row))));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   const auto bounds = [&](const char* name, double glued, double free) {
     fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",
@@ -326,8 +334,7 @@ std::string facts(const RankingRow& row) {
                                              100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
-    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks, by the scatter of wires alone",
-                           printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2])));
+    fact(name, shares_words(lives) + ", by the scatter of wires alone");
   };
   scatter("first broken wire", row.first_wire_hours);
   scatter("share of a conductor broken anywhere in it", row.conductor_hours);

@@ -81,8 +81,8 @@ struct RankingRow {
   std::size_t rank = 0;
   /// planned_hours if all parts inside the cables were glued, and if they slipped without friction, for the same samples.
   std::array<double, 3> glued_hours{unknown, unknown, unknown}, free_hours{unknown, unknown, unknown};
-  std::string failing_mode;       ///< mode that fails first in most of the samples: "wires of signal cable"
-  double failing_mode_share = 0;  ///< share of the samples in which this mode fails first
+  std::string failing_mode;       ///< mode that fails first in most of the samples that fail: "wires of signal cable"
+  double failing_mode_share = 0;  ///< in which share of them
   std::string best_test;          ///< parameter whose test narrows planned_hours most; empty: no test narrows it
   double tested_p10 = unknown, tested_p90 = unknown;  ///< planned_hours[0] and [2] after that test
   /// (percentile) standard errors of planned_hours, as factors (pipeline/life/first_failure.h); NaN: not known.

@@ -323,7 +323,7 @@ class Table {
         "rank", "1", "1 is best; jobs that cannot be separated share one",
         [](const RankingRow& row) { return row.rank > 0; },
         [](const RankingRow& row) { return static_cast<int>(row.rank); }));
-    add(of("failing_mode", "text", "what fails first in most of the samples", &RankingRow::failing_mode));
+    add(of("failing_mode", "text", "what fails first in most of the samples that fail", &RankingRow::failing_mode));
     add(where(
         "failing_mode_share", "1", "in which share of them",
         [](const RankingRow& row) { return !row.failing_mode.empty(); }, &RankingRow::failing_mode_share));

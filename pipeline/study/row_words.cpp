@@ -78,8 +78,10 @@ std::string test_words(const RankingRow& row) {
   std::string measurement(test->test);
   measurement.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(measurement.front())));
   return fmt::format(
-      "The measurement that narrows the range most: {}. If it confirms the estimate, the range becomes about {} (now {}).",
-      measurement, range_text(row.tested_p10, row.tested_p90), range_text(row.planned_hours[0], row.planned_hours[2]));
+      "The measurement that narrows the range most: {}. If it confirms the estimate, {} (now {}).", measurement,
+      std::isinf(row.tested_p10) ? "fewer than 1 of 10 such dresspacks fail"
+                                 : "the range becomes about " + range_text(row.tested_p10, row.tested_p90),
+      range_text(row.planned_hours[0], row.planned_hours[2]));
 }
 
 std::string error_words(const RankingRow& row) {
@@ -374,14 +376,15 @@ std::string failing_place_words(const RankingRow& row) {
 
 std::string failure_words(const RankingRow& row) {
   if (!row.has_wires()) return "";
-  if (!is_damaged(row)) return "No wire is damaged.";
   const std::string first =
       row.failing_mode.empty()
           ? ""
-          : fmt::format("Fails first{}: {}, in {:.0f} % of the samples{}{}.",
+          : fmt::format("Fails first{}: {}, in {:.0f} % of the samples that fail{}{}.",
                         row.unvalidated.empty() ? "" : " of the validated modes", row.failing_mode,
                         100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
                         failing_place_words(row));
+  if (!is_damaged(row))
+    return first.empty() ? "No wire is damaged." : first + " With the job's own values no wire is damaged.";
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
   const bool elsewhere = !row.failing_conductor.empty() && !is_in(row.failing_conductor, row.worst_component);
   return joined_words(
@@ -426,7 +429,7 @@ std::string joint_words(const RankingRow& row) {
 }
 
 std::string repeat_words(const RankingRow& row) {
-  if (!row.planned() || outlives_robot(row, row.planned_hours[0])) return "";
+  if (!row.planned() || !std::isfinite(row.planned_hours[0]) || outlives_robot(row, row.planned_hours[0])) return "";
   return fmt::format("One repeat of the motion takes {} s: 1 of 10 has failed after {} repeats.",
                      readable(row.repeat_seconds), readable(row.planned_hours[0] * 3600 / row.repeat_seconds));
 }
@@ -480,6 +483,9 @@ std::string own_values_words(const RankingRow& row) {
 
 std::string order_words(const RankingRow& row) {
   if (!row.outlives_next) return "";
+  // A sample in which neither job fails counts half: a share of a half without failures means that the next job has none, either.
+  if (row.failing_mode.empty() && std::isinf(row.planned_hours[0]) && *row.outlives_next == 0.5)
+    return "No sample of this job and of the next one fails.";
   const double of_100 = 100 * *row.outlives_next;
   const bool clear = *row.outlives_next >= separated_share;
   if (*row.outlives_next <= 1 - separated_share)

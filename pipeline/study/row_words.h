@@ -58,7 +58,7 @@ std::string uncertainty_words(const RankingRow& row);
 /// be in another conductor. Empty: no conductor can fail.
 std::string failing_place_words(const RankingRow& row);
 
-/// Returns "Fails first: wires of signal cable, in 100 % of the samples, likeliest (its place). The worst wire is .., 0.12 m from
+/// Returns "Fails first: wires of signal cable, in 100 % of the samples that fail, likeliest (its place). The worst wire is .., 0.12 m from
 /// the tool. Its most damaging cycle ends at 144.3 s, during ..".
 std::string failure_words(const RankingRow& row);
 

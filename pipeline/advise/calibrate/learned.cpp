@@ -261,7 +261,7 @@ std::string learned_table(const Learned& learned) {
       "Width after/before: of this range. Above 100 %: the observations leave more values possible than were assumed before.\n"
       "Only there: each dresspack has its own value, so the calibration leaves out what the observed one had.\n"
       "Predicted: the life after which 10 % of such specimens have failed (half, 90 %); of a bending test its largest moment.\n"
-      "Predicted before: without any observation. By the others: without this observation. Fails first: in which share of the samples.\n"
+      "Predicted before: without any observation. By the others: without this observation. Fails first: in which share of the samples that fail.\n"
       "Compare 'predicted after' with the 'replace after' that dresslife run prints for a job with this calibration. They differ somewhat,\n"
       "because run is for another dresspack, and computes the strains at the middle values above. If no warning follows, plan with those of\n"
       "run. 'Predicted before' is not what run prints without a calibration: run includes makers' ratings (uncertainty.ratings), which a\n"

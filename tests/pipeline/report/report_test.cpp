@@ -350,6 +350,8 @@ TEST_CASE("report: charts of no damage and of no cycles are none") {
   life.segment_length = life.segment_damage = {0, 0, 0, 0};
   CHECK(segment_chart(life, 0).empty());
   CHECK(cycle_chart(life).empty());
+  life.time = {0, 1}, life.strain = {0, 0};
+  CHECK(strain_chart(life).empty());
 }
 
 TEST_CASE("report: damage that is much the same all along is said to be") {
@@ -394,10 +396,10 @@ TEST_CASE("report: each fact of a job has the row's own number") {
           {"worst wire",
            "71.0 h of motion = 7,100 repeats of 36.0 s = 7.00 months by the calendar, median of the worst wire"},
           {"by the scatter of wires alone",
-           "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, everything else with the job's own values"},
+           "by 51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, everything else with the job's own values"},
           {"its causes", "strength 60 %"},
           {"fails first",
-           "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
+           "wires of signal cable, in 75 % of the samples that fail, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
           {"bounds of 10 % failed", "11.0 h" + glued + "111 h" + free},
           {"bounds of half failed", "12.0 h" + glued + "112 h" + free},
           {"bounds of 90 % failed", "13.0 h" + glued + "113 h" + free},
@@ -423,6 +425,12 @@ TEST_CASE("report: each fact of a job has the row's own number") {
   for (const char* words :
        {"Check that the clamps hold the cables", "Above a fifth of either, the forces are unrealistic"})
     CHECK((page.find(words) == std::string::npos && strained.find(words) != std::string::npos));
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  row.planned_hours = row.first_wire_hours = {infinite, infinite, infinite}, row.conductor_hours[2] = infinite;
+  CHECK_THAT(page_of("planned", rows),
+             Catch::Contains("<dd>in more than 90 % of the samples no conductor fails</dd>") &&
+                 Catch::Contains("<dd>in fewer than 10 %" + by_scatter) &&
+                 Catch::Contains("<dd>by 41.0 h in 10 %, 42.0 h in half" + by_scatter));
 }
 
 }  // namespace
@@ -440,7 +448,7 @@ TEST_CASE("report: under what fails first stands the conductor that fails, not t
       Catch::Contains("wires of signal cable (75 %)<br>signal cable 3/conductor 2, 0.75 m from the tool</td><td><span "
                       "class=\"soft\">worst wire:</span> power cable 1/wire 7<br>") &&
           Catch::Contains(
-              "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));
+              "wires of signal cable, in 75 % of the samples that fail, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));
 }
 
 }  // namespace dresslife::pipeline

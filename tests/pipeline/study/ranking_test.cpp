@@ -678,7 +678,7 @@ TEST_CASE("ranking: jobs are ranked and reported by the life that 10 % do not re
   CHECK_THAT(
       std::regex_replace(text, std::regex("\n +"), " "),
       Catch::Contains(
-          "Fails first: wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool."));
+          "Fails first: wires of signal cable, in 75 % of the samples that fail, likeliest signal cable 3/conductor 2, 0.75 m from the tool."));
   CHECK(cell("strong", "life_hours_p90_all_glued") == "15");
   CHECK(cell("strong", "life_hours_p10_all_free") == "600");
   CHECK(cell("strong", "failing_mode") == "wires of signal cable");
@@ -854,6 +854,44 @@ TEST_CASE("ranking: the worst wire is in the likeliest conductor, also if only t
   CHECK_THAT(failure_words(row), Catch::Contains("The worst wire is cable 1"));
   row.worst_component = "cable 1/layer 1/core 7/layer 1/wire 13";
   CHECK_THAT(failure_words(row), Catch::Contains("another wire is the worst"));
+}
+
+TEST_CASE(
+    "ranking: infinite lives are no numbers of hours or repeats, and own values without damage are named as such") {
+  const Scratch scratch;
+  SampleLife life = living(12000);
+  life.planned_hours = 60, life.life_response = response_of(4);
+  RankingRow row = read_ranking({job_with(scratch, "one", life)}).front();
+  row.damage_per_repeat = 0;
+  CHECK(
+      failure_words(row) ==
+      "Fails first: wires of signal cable, in 75 % of the samples that fail, likeliest signal cable 3/conductor 2, 0.75 m "
+      "from the tool. With the job's own values no wire is damaged.");
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  row.tested_p10 = row.tested_p90 = infinite;
+  CHECK_THAT(
+      uncertainty_words(row),
+      Catch::Contains("If it confirms the estimate, fewer than 1 of 10 such dresspacks fail (now 60.0 .. 150 h)."));
+  row.failing_mode = "", row.planned_hours.fill(infinite);
+  CHECK(failure_words(row) == "No wire is damaged.");
+  CHECK(repeat_words(row) == "");
+  row.outlives_next = 0.5;
+  CHECK(order_words(row) == "No sample of this job and of the next one fails.");
+  row.outlives_next = 0.6;
+  CHECK(order_words(row) == "Lives longer than the next job in 60 of 100 samples: no clear difference.");
+}
+
+TEST_CASE("ranking: a warning names a file of the study from the folder of the user") {
+  const Scratch scratch;
+  RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
+  std::filesystem::create_directories(scratch / "study/one");
+  scratch.write("study/one/job.yaml", "");
+  row.life_file = scratch / "study/one/life.h5";
+  row.warnings = std::vector<Warning>{{WarningKind::mesh, "one/job.yaml:4:9", "first"},
+                                      {WarningKind::mesh, "cell.yaml:4:9", "second"}};
+  const std::string lines = std::regex_replace(warning_lines({row}), std::regex("\n +"), " ");
+  CHECK_THAT(lines, Catch::Contains((scratch / "study/one/job.yaml:4:9: first").string()) &&
+                        Catch::Contains("warning: cell.yaml:4:9: second"));
 }
 
 TEST_CASE("ranking: a life that equals one of its bounds is named, another one is not") {
