@@ -209,6 +209,14 @@ void check_move(const MotionStep& step, const Robot& robot) {
     throw InputError(where, "zone_turn_deg is given without zone_mm", "give both, or take zone_turn_deg out");
 }
 
+/// Removes the keys whose values are those of `defaults`.
+void leave_out_defaults(Node& map, const Node& defaults) {
+  std::erase_if(map.entries, [&](const auto& entry) {
+    const Node* const same = defaults.find(entry.key);
+    return same && to_yaml(*same) == to_yaml(entry.value);
+  });
+}
+
 /// Checks one step without the steps of its block.
 void check_lone_step(const MotionStep& step, const Robot& robot) {
   const bool move = step.is_move(), dwell = step.dwell > 0, block = step.repeat > 0 || !step.steps.empty();
@@ -218,10 +226,12 @@ void check_lone_step(const MotionStep& step, const Robot& robot) {
                      "split it into steps");
   if (block && (step.repeat < 1 || step.steps.empty()))
     throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
-  if (move) check_move(step, robot);
-  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone || step.turn_zone ||
-                step.stop_zone || step.duration || step.acceleration || step.tool_acceleration))
-    throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
+  if (move) return check_move(step, robot);
+  Node map = echo_fields(step);
+  leave_out_defaults(map, echo_fields(MotionStep{}));
+  for (const Entry& entry : map.entries)
+    if (entry.key != "text" && entry.key != "dwell_s" && entry.key != "repeat" && entry.key != "steps")
+      throw InputError(step.where, fmt::format("{} belongs to a move", entry.key), "take it out of this step");
 }
 
 void check_steps(const std::vector<MotionStep>& steps, const Robot& robot, Problems& problems) {
@@ -244,8 +254,6 @@ void check_frames(const Motion& motion) {
 
 void check_held_joint(const Motion& motion, const Robot& robot) {
   if (motion.hold_joint.empty()) return;
-  if (!motion.needs_robot())
-    throw InputError(motion.where, "hold_joint is given, and no robot moves", "leave hold_joint out");
   const std::vector<std::string> axes = robot.axis_names();
   if (std::ranges::find(axes, motion.hold_joint) != axes.end()) return;
   const Joint* const held = find_in(robot.joints, &Joint::name, motion.hold_joint);
@@ -253,6 +261,20 @@ void check_held_joint(const Motion& motion, const Robot& robot) {
                    held ? fmt::format("hold_joint: '{}' follows {} and cannot be held alone", held->name, held->follows)
                         : fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
                    fmt::format("name one of {}", joined(axes, ", ")));
+}
+
+/// Refuses keys of a robot's program in a motion without a robot. source: the key of that motion.
+void check_robotless(const Motion& motion, const std::string& source) {
+  Node map = echo_fields(motion);
+  leave_out_defaults(map, echo_fields(Motion{}));
+  std::vector<std::string> without_effect;
+  for (const Entry& entry : map.entries)
+    if (entry.key != source && entry.key != "name" && entry.key != "source") without_effect.push_back(entry.key);
+  if (!without_effect.empty())
+    throw InputError(motion.where,
+                     fmt::format("keys beside motion.{}, which moves no robot, have no effect: {}", source,
+                                 joined(without_effect, ", ")),
+                     "leave them out");
 }
 
 }  // namespace
@@ -272,6 +294,7 @@ void check_motion(const Motion& motion, const Robot& robot) {
                      fmt::format("motion must have one of steps, program, clamp_poses, deformation or rig (it has {})",
                                  has.empty() ? "none" : joined(has, " and ")),
                      has.empty() ? "give one of the five" : "keep one of them");
+  if (!motion.needs_robot()) return check_robotless(motion, has.front());
   Problems problems;
   problems.attempt("", motion.where, [&] { check_frames(motion); });
   problems.attempt("", motion.where, [&] { check_held_joint(motion, robot); });
@@ -283,14 +306,6 @@ void check_motion(const Motion& motion, const Robot& robot) {
 }
 
 namespace {
-
-/// Removes the keys whose values are those of `defaults`.
-void leave_out_defaults(Node& map, const Node& defaults) {
-  std::erase_if(map.entries, [&](const auto& entry) {
-    const Node* const same = defaults.find(entry.key);
-    return same && to_yaml(*same) == to_yaml(entry.value);
-  });
-}
 
 void leave_out_defaults_of_steps(Node& map, const Node& defaults) {
   Node* const steps = map.find("steps");

@@ -1,6 +1,7 @@
 #include "pipeline/job/robot.h"
 
 #include <algorithm>
+#include <set>
 
 #include "pipeline/settings/fields.h"
 
@@ -114,6 +115,15 @@ void check_range(double lower, double upper, const std::string& name, const Wher
     throw InputError(where, fmt::format("limits of {} are empty (lower >= upper)", name), "correct them");
 }
 
+/// Refuses equal names, because a clamp or a key names a link or a joint by it.
+void check_names(const auto& parts, const char* words, const Where& where, Problems& problems) {
+  std::set<std::string> names;
+  for (const auto& part : parts)
+    if (!names.insert(part.name).second)
+      problems.add(where, fmt::format("two {} of the robot are named '{}'", words, part.name),
+                   "give each another name");
+}
+
 void check_joint(const Joint& joint, const Robot& robot) {
   check_direction(joint.axis, joint.name, joint.where);
   if (joint.follows.empty()) return check_range(joint.lower, joint.upper, joint.name, joint.where);
@@ -133,6 +143,8 @@ void check_robot(const Robot& robot, const Where& where) {
                  fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
                              robot.links.size()),
                  "list the base link and one link per joint");
+  check_names(robot.joints, "joints", where, problems);
+  check_names(robot.links, "links", where, problems);
   for (const Joint& joint : robot.joints) problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
   for (const ExternalAxis& axis : robot.external_axes)
     problems.attempt("", axis.where, [&] {

@@ -65,9 +65,9 @@ void check_prescribed(const Job& job, const Node& document) {
   const Node* cell = document.find("cell");
   for (const Entry& entry : cell ? cell->entries : std::vector<Entry>{})
     if (entry.key != "temperature_C") refuse(entry.where, "cell." + entry.key + " is given");
-  if (job.dresspacks.size() > 1)
-    problems.add(job.motion.where, fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
-                 "keep one dresspack");
+  if (const Node* const list = document.find("dresspacks"))
+    problems.add(list->where, fmt::format("dresspacks is given, and {} deforms one dresspack", key),
+                 "give one with the key dresspack instead of the list");
   const Node* routing = document.find("routing");
   if (job.motion.rig && routing) refuse(routing->where, "routing is given");
   for (const Entry& entry : routing ? routing->entries : std::vector<Entry>{})

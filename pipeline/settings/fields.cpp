@@ -143,8 +143,12 @@ class FieldReader final : public Fields {
   void integer(Key key, int& value, Need need, Range range, std::string_view meaning) override {
     read(key, need, meaning, [&](const Node& node) {
       const double number = number_of(node, key, range, meaning);
-      if (number != std::floor(number) || std::abs(number) > 1e9)
-        refuse(node, fmt::format("{} is {} (must be a whole number)", name_of(key), node.text), meaning);
+      constexpr double most = 1e9;  // of an int: 2.1e9
+      if (number != std::floor(number) || std::abs(number) > most)
+        refuse(node,
+               fmt::format("{} is {} (must be a whole number{})", name_of(key), node.text,
+                           std::abs(number) > most ? fmt::format(", at most {:g}", most) : ""),
+               meaning);
       value = static_cast<int>(number);
     });
   }
@@ -317,7 +321,8 @@ class FieldReader final : public Fields {
                                    node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
                                    word.empty() ? "" : fmt::format(" or {}", word),
                                    unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-                       decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
+                       (node.quoted && parse_number(node.text) ? "write it without quotes; " : "") +
+                           decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),

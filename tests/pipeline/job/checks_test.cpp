@@ -58,6 +58,12 @@ TEST_CASE("checks: a motion has exactly one source and begins with a move") {
     CAPTURE(given);
     CHECK(is_refused([&] { check_motion(motion, two_axes()); }) == (__builtin_popcount(unsigned(given)) != 1));
   }
+  Motion rig;
+  rig.rig.emplace();
+  rig.override_percent = 50, rig.tools.emplace_back().name = "gun", rig.name = "bench", rig.source = "test";
+  CHECK_THAT(
+      message_of([&] { check_motion(rig, {}); }),
+      Catch::Contains("keys beside motion.rig, which moves no robot, have no effect: override_percent, tools; leave"));
   MotionStep dwell;
   dwell.dwell = 1;
   Motion motion;

@@ -139,6 +139,8 @@ TEST_CASE("dresspacks: what is wrong with the list is reported where it stands")
   check(edited(list, "sensor cable", "a/b"), "name: a/b",
         "name 'a/b' holds a '/'; choose another: it begins the paths of the dresspack's wires");
   check(edited(list, "sensor cable", "''"), "''", "dresspacks[2].name must be text; give A unique name without '/'");
+  CHECK_THAT(message_of([&] { job_of_text(list, {"motion={rig: {kind: torsion, twist_deg_per_m: 90}}"}); }),
+             Catch::Contains("dresspacks is given, and motion.rig deforms one dresspack; give one with the key"));
   CHECK(message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
             .find("motion.clamp_poses brings the clamps of one dresspack (there are 2); describe the motion by a "
                   "robot, or keep one dresspack") != std::string::npos);

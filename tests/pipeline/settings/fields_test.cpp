@@ -106,7 +106,7 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"mass_kg: heavy", "must be a number or measured, the unit is in the key: kg"},
            {"count: 0", "(must be 1 .. 9)"},
            {"count: 2.5", "(must be a whole number)"},
-           {"share: '1'", "must be a number"},
+           {"share: '1'", "must be a number); write it without quotes; give"},
            {"share: [1]", "is not one value"},
            {"share: .inf", "must be finite"},
            {"share: -.inf", "must be finite"},

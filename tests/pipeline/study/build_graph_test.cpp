@@ -477,7 +477,7 @@ TEST_CASE("build graph: no time decides, only content") {
 
 /// Returns the job with recorded poses of the clamps in place of a robot.
 Job with_poses(Job job, const fs::path& poses) {
-  job.motion.steps.clear();
+  job.motion = {};
   job.motion.clamp_poses = poses;
   job.robot = {};
   job.dresspacks[0].routing.base_clamp.reset();
