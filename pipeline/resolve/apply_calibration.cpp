@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/job/wall_strength.h"
@@ -29,7 +30,7 @@ const Node* value_of(const Node& job, const UncertainParameter& parameter) {
 /// contain.
 bool gives(const Node& job, const UncertainParameter& parameter) {
   const Node* value = value_of(job, parameter);
-  return value && value->text != shortest_text(parameter.value(0));
+  return value && number_in(value->text) != parameter.value(0);
 }
 
 /// Returns the names of parameters that the job itself sets, by their keys or their standard deviations.
@@ -54,7 +55,7 @@ void read_keys(const Node& tree, Job& job) {
 bool has_median(const Node& tree, const LearnedParameter& learned) {
   const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
   const Node* value = value_of(tree, parameter);
-  return value && value->text == shortest_text(parameter.value(learned.median));
+  return value && number_in(value->text) == parameter.value(learned.median);
 }
 
 /// Replaces the medians that put_medians() wrote by the neutral values, for parameters that are no longer in the calibration.

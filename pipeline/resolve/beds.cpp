@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/cable/polymer.h"
 #include "pipeline/job/kinematics.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -15,7 +16,7 @@ void add_below(Node& parent, bool in_hose) {
   for (Node& part : parts->items) {
     if (!part.is_map() || !part.find("components")) continue;
     const Node* const radius = part.find("helix_radius_mm");
-    const bool on_axis = radius && radius->text == "0";
+    const bool on_axis = radius && number_in(radius->text) == 0.0;
     if (!in_hose && !on_axis && !part.find("radial_stiffness_N_per_m2")) {
       Node& bed = part["radial_stiffness_N_per_m2"];
       bed = scalar(fmt::format("{:g}", polymer_modulus));

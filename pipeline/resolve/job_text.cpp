@@ -34,7 +34,7 @@ void check_forms(Node& document, Problems& problems) {
                    fmt::format("both dresspacks and {0} are given (each of the list has its own {0})", key),
                    "keep one of the two");
     const Node* motion = document.find("motion");
-    const bool of_rig = key == std::string_view("routing") && motion && motion->find("rig");
+    const bool of_rig = key == std::string_view("routing") && motion && (motion->find("rig") || !motion->is_map());
     if (!list && !alone && !of_rig)
       problems.add(document.where, fmt::format("{} is missing (and there is no list dresspacks)", key),
                    "give dresspack and routing, or a list dresspacks of name, dresspack, routing", key);
@@ -59,15 +59,15 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   Problems problems;
   problems.attempt("", document.where, [&] { apply_lines(document); });
   for (const std::string& set : sets) problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
-  check_forms(document, problems);
   resolve_job(document, problems);
+  check_forms(document, problems);
   if (const Node* calibration = document.find("calibration"))
     problems.attempt("calibration", calibration->where, [&] { read_calibration(document); });
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
-  const std::initializer_list<const char*> parts{"calibration", "strain",    "fatigue",
-                                                 "uncertainty", "dresspack", "dresspacks"};
+  const std::initializer_list<const char*> parts{"calibration", "simulation", "strain",    "fatigue",
+                                                 "uncertainty", "dresspack",  "dresspacks"};
   if (std::ranges::none_of(parts, [&](const char* part) { return problems.touch(part); }))
     problems.attempt("calibration", document.where, [&] {
       apply_calibration(document, job);

@@ -77,6 +77,11 @@ TEST_CASE("cores lie on polymer, wires on wires, and the thesis on nothing that 
     const Dresspack thesis = job_of(name, "{kinematics: thesis, slip: stick}").dresspacks.front().dresspack;
     CHECK_FALSE(with_parts(in_hose ? thesis.components.front().components : thesis.components)->radial_stiffness);
   }
+  const std::string on_axis =
+      "{cable: {name: c, source: test, radius_mm: 3, components: [{name: core, radius_mm: 1, helix_radius_mm: 0, components: [{name: "
+      "wire, radius_mm: 0.1, helix_radius_mm: 0, material: copper}]}]}}";
+  CHECK(job_text(job_of(edited(on_axis, "mm: 1, helix_radius_mm: 0,", "mm: 1, helix_radius_mm: 0.0,"))) ==
+        job_text(job_of(on_axis)));
   const Job rigid = job_from(parse_yaml(
       "motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}\ndresspack: {cable: {name: c, source: test, radius_mm: 3, "
       "components: [{name: core, count: 3, radius_mm: 1, helix_radius_mm: 1.2, lay_angle_deg: 9, radial_stiffness_N_per_m2: 1e12, "

@@ -379,6 +379,12 @@ TEST_CASE("ratings: what a job states itself stands") {
   CHECK(key.fatigue.strength_factor == 1.1);
   CHECK(!knows(key, "strength"));
   CHECK(knows(key, "model"));
+  // A number has several spellings.
+  const Job plain = soft_copper();
+  const std::string median = fmt::format("fatigue.strength_factor={}0", plain.fatigue.strength_factor);
+  CHECK(job_text(soft_copper({"fatigue.strength_factor=1.0", "fatigue.slope_change=0.0"})) == job_text(plain));
+  CHECK(job_text(job_from(parse_yaml(job_text(plain), "elsewhere.yaml"), {median})) == job_text(plain));
+  CHECK_THAT(message_of([] { soft_copper({"simulation.segmnts=5"}); }), !Catch::Contains("\n"));
   const Job deviation = soft_copper({"uncertainty.strength=1.1"});
   const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
   CHECK(deviation.fatigue.strength_factor == 1);
