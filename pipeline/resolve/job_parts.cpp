@@ -3,6 +3,7 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/base/program_files.h"
 #include "pipeline/base/related_files.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/job_text.h"
@@ -182,10 +183,11 @@ void describe_temperature(Fields& echo, Cell& cell) {
 
 void describe_sim(Fields& echo, Job& copy) {
   const JobForms forms = forms_of(copy);
+  std::vector<double> by_rule;  // the least bend radii that follow from keys that are left out below
   for (MountedDresspack& mounted : copy.dresspacks) {
-    drop_fatigue_keys(mounted.dresspack);
-    mounted.routing.longest_bracket.reset();
     Dresspack& dresspack = mounted.dresspack;
+    if (!dresspack.least_bend_radius) by_rule.push_back(least_bend_radius(dresspack));
+    drop_fatigue_keys(dresspack);
     dresspack.estimates.clear();
     dresspack.estimated_lay_factor.reset();
     count_as_numbers(dresspack);
@@ -211,6 +213,7 @@ void describe_sim(Fields& echo, Job& copy) {
   copy.cell.temperature = Cell::usual_temperature;  // the stiffnesses contain its effect
   echo.group("cell", copy.cell, Need::optional, "");
   echo.group("simulation", copy.simulation, Need::optional, "");
+  if (!by_rule.empty()) echo.numbers("bend_radius_by_rule_mm", by_rule, Need::optional, "");
   double other = copy.motion.is_prescribed() ? 0 : other_stiffness(copy.uncertainty);
   echo.number("other_stiffness", other, Need::optional, any_number(), "");
 }
@@ -253,8 +256,7 @@ EchoSections part_sections(const Job& job, JobPart part, const EchoKeys& omitted
   const auto described = part == JobPart::sim      ? describe_sim
                          : part == JobPart::strain ? describe_strain
                                                    : describe_fatigue;
-  Job copy = job;  // a part changes it, in the same way at each call
-  return echo_sections(Describe([&](Fields& f) { described(f, copy); }), file_name, omitted);
+  return echo_sections(Describe([&, copy = job](Fields& f) mutable { described(f, copy); }), file_name, omitted);
 }
 
 std::string part_text(const Job& job, JobPart part) { return joined_text(part_sections(job, part)); }

@@ -137,9 +137,13 @@ struct PieceTexts::Section {
 };
 
 // In the order of the texts.
-const PieceTexts::Sections PieceTexts::of_sim{{"motion", {Piece::motion}},       {"robot", {Piece::robot}},
-                                              {"dresspack", {Piece::rest}},      {"routing", {Piece::routing}},
-                                              {"cell", {Piece::rest}},           {"simulation", {}},
+const PieceTexts::Sections PieceTexts::of_sim{{"motion", {Piece::motion}},
+                                              {"robot", {Piece::robot}},
+                                              {"dresspack", {Piece::rest}},
+                                              {"routing", {Piece::routing}},
+                                              {"cell", {Piece::rest}},
+                                              {"simulation", {}},
+                                              {"bend_radius_by_rule_mm", {Piece::rest}},
                                               {"other_stiffness", {Piece::rest}}};
 const PieceTexts::Sections PieceTexts::of_job{
     {"motion", {Piece::motion}},    {"robot", {Piece::robot}},     {"dresspack", {Piece::rest}},

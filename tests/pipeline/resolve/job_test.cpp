@@ -218,6 +218,8 @@ TEST_CASE("job: numbers may be written in every usual way") {
 }
 
 TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are distinguished") {
+  CHECK_THAT(message_of([] { job_of_text(sample_job, {"motion.passes=2000000000"}); }),
+             Catch::Contains("motion.passes is 2000000000 (must be a whole number, at most 1e+09)"));
   check_case({"segments: 20", "segments: 20.5", "20.5",
               "simulation.segments is 20.5 (must be a whole number); give the number of rigid segments of each "
               "dresspack"});
@@ -422,7 +424,11 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
   CHECK_FALSE(job.dresspacks[0].dresspack.hose_strain_factor);
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   CHECK(part_text(job, JobPart::strain) != part_text(job_of_text(with(bore)), JobPart::strain));
-  CHECK(part_text(job, JobPart::sim) == part_text(job_of_text(with(bore)), JobPart::sim));
+  // A motion depends on the wall only by the least bend radius that follows from it.
+  CHECK(part_text(job, JobPart::sim) != part_text(job_of_text(with(bore)), JobPart::sim));
+  const std::string given = "  least_bend_radius_mm: 300\n";
+  CHECK(part_text(job_of_text(with(given + profile)), JobPart::sim) ==
+        part_text(job_of_text(with(given + bore)), JobPart::sim));
 
   CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 1"));
   CHECK(is_hose_wall(job.dresspacks[0].dresspack, "hose 16"));
@@ -463,7 +469,11 @@ TEST_CASE("job: what contradicts itself is refused") {
               "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps; split "
               "it into steps"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, zone_deg: 1}", "{dwell_s",
-              "speed and zone belong to a move; take them out of this step"});
+              "zone_deg belongs to a move; take it out of this step"});
+  check_case(
+      {"{dwell_s: 0.5}", "{dwell_s: 0.5, tool: gun}", "{dwell_s", "tool belongs to a move; take it out of this step"});
+  check_case({"- name: turret", "- name: base", "name: two axes",
+              "two links of the robot are named 'base'; give each another name"});
   check_case({"speed_percent: 50", "speed_percent: 50, speed_deg_per_s: 3", "{joints_deg: [10.7",
               "both speed_percent and speed_deg_per_s are given; keep one of the two"});
   check_case({"    - repeat: 3\n      text: nodding\n", "    - text: nodding\n", "text: nodding",
@@ -557,6 +567,7 @@ TEST_CASE("job: each stage depends on its own part of the job only") {
   CHECK(changed("simulation.segments=21") == "x--");
   CHECK(changed("motion.steps.1.joints_deg=[1, 0]") == "x--");
   CHECK(changed("routing.free_length_m=1.3") == "x--");
+  CHECK(changed("routing.longest_bracket_mm=900") == "x--");  // a warning of dresslife-sim depends on it
   CHECK(changed("dresspack.diameter_mm=61") == "x--");
   CHECK(changed("dresspack.components.1.count=4") == "-x-");
   CHECK(changed("strain.kinematics=thesis") == "-x-");
