@@ -314,10 +314,12 @@ class Expansion {
     const double inside = sheet_.jacket_thickness || sheet_.core_diameter
                               ? outer_ - 2 * sheet_.jacket_thickness.value_or(0)
                               : bundle_in(outer_);
-    jacket_ = sheet_.jacket_thickness.value_or((outer_ - inside) / 2);
+    jacket_ = sheet_.jacket_thickness.value_or(0);
     core_diameter_ = sheet_.core_diameter ? *sheet_.core_diameter : widest_core(inside);
     check_conductor();
-    if (const double width = cabled_width(core_diameter_); width > inside * (1 + slack_of_a_caliper))
+    const double width = cabled_width(core_diameter_);
+    if (!sheet_.jacket_thickness) jacket_ = std::max(0.0, (outer_ - width) / 2);
+    if (width > inside * (1 + slack_of_a_caliper))
       throw InputError(
           sheet_.where,
           fmt::format("the cores make a bundle {:.4g} mm wide (the cable leaves {:.4g} mm)", 1e3 * width, 1e3 * inside),
@@ -505,7 +507,7 @@ constexpr const char* example_line =
 /// 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an empty text.
 std::string meant_section(const std::string& phrase) {
   static const std::regex gauge(
-      R"((?:(\d+)(?: *[x*g] *| +|(?=awg))(?:\(? *(\d+) *[x*] *)?)?(?:awg *(\d+)|(\d+) *awg)(?: */ *([1-9]\d*))? *\)?)"),
+      R"((?:(\d+)(?: *[x*g] *| +|(?=awg))(?:\(? *(\d+) *[x*] *)?)?(?:awg *(\d{1,2})|(\d{1,2}) *awg)(?: */ *([1-9]\d{0,3}))? *\)?)"),
       other_unit(R"((\d+(?: *[x*] *\d+)?) *[x*g] *([\d.]+) *(?:mm)?)"),
       exchanged(R"((\d*\.\d+) *[x*g] *(\d+) *(?:mm2|mm\^2|mm²|qmm|sqmm|mm)?)");
   std::smatch found;
@@ -628,7 +630,7 @@ bool changes_nothing(const std::string& phrase) {
 /// of the dresspack"; otherwise an empty text.
 std::string other_key(const std::string& phrase) {
   static const std::regex bend(R"((min(imum)?\.? *)?bend(ing)? *radius.*)"), number(R"((\d[\d.]*) *mm)"),
-      mass(R"((mass|weight) *:? *([\d.]+) *kg */ *km|([\d.]+) *kg */ *km)"),
+      mass(R"((?:mass|weight)? *:? *(\d{1,9}(?:\.\d+)?) *kg */ *km)"),
       cycles(R"(.*(cycles|million|bends|strokes|torsion).*)");
   std::smatch found;
   if (std::regex_match(phrase, bend)) {
@@ -638,8 +640,7 @@ std::string other_key(const std::string& phrase) {
                        radius);
   }
   if (std::regex_match(phrase, found, mass))
-    return fmt::format("leave it out and give mass_kg_per_m: {:.4g} beside data_sheet",
-                       std::stod(found[2].matched ? found[2] : found[3]) / 1e3);
+    return fmt::format("leave it out and give mass_kg_per_m: {:.4g} beside data_sheet", std::stod(found[1]) / 1e3);
   if (std::regex_match(phrase, cycles)) return "leave it out and give the maker's test as ratings beside data_sheet";
   return "";
 }
@@ -650,7 +651,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   static const std::regex section(R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
       with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"),
       word_class("(?:(?:extra |super )?fine(?:ly)?[ -]strand(?:s|ed)? )?class *([1-6])"),
-      length(R"(([a-z][a-z. -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
+      length(R"(([a-z][a-z. -]*?) *([\d.]+) *mm(?: *([a-z]+))?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
       {std::regex("(outer |outside |overall )?diameter|od|o\\.d\\.?"), "outer_diameter_mm"},
@@ -674,7 +675,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
         if (key == std::string_view("jacket_thickness_mm")) {
           const std::string material = jacket_material(phrase);
           if (material.empty())
-            refuse_unknown_material(found[1], where);
+            refuse_unknown_material(found[1].str() + " " + found[3].str(), where);
           else
             keys.emplace_back("jacket_material", material);
         }
@@ -723,6 +724,10 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
 }  // namespace
 
 Node sheet_from_line(const Node& line) {
+  constexpr std::size_t longest = 2000;  // bytes: std::regex needs some 100 bytes of the stack for each letter
+  if (line.text.size() > longest)
+    throw InputError(line.where, fmt::format("data_sheet has {} bytes (at most {})", line.text.size(), longest),
+                     "keep the phrases of `dresslife manual data_sheet`");
   Node sheet;
   sheet.kind = Node::Kind::map;
   const std::string text = with_points(line.text);
@@ -788,9 +793,11 @@ void describe(Fields& f, DataSheet& sheet) {
                  "0.5 to 4 mm2.");
   f.maybe_number("outer_diameter_mm", sheet.outer_diameter, above(0),
                  "The diameter of the cable. Default: with a class, the sum from the cores outwards.");
-  f.maybe_number("jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
-                 "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
-                 "not given. Default: with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1).");
+  f.maybe_number(
+      "jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
+      "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
+      "not given. Default: with core_diameter_mm and outer_diameter_mm the rest, else with a class 1 mm and 3.5 % of the "
+      "width of the cores (IEC 60502-1).");
   f.text("jacket_material", sheet.jacket_material, Need::optional,
          "A material with `wear`: a name of config/materials. Default: the wear of the jacket is not evaluated.");
   f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0),

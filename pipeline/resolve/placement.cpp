@@ -156,6 +156,9 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
     if (!(number_of(component, "radius_mm") > 0) &&
         !component.find("data_sheet"))  // a remaining data sheet was refused already
       problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet", key);
+    if (const double most = unit_of_key("radius_mm").most; number_of(component, "radius_mm") > most)
+      problems.add(component.where, fmt::format("has place: auto and a radius_mm of more than {:g}", most),
+                   "give the radius of the part", key);
     const Node* const given_count = component.find("count");
     // Parts of a split component lose the key, so it is checked here.
     if (given_count && given_count->text.find_first_not_of("0123456789") != std::string::npos)

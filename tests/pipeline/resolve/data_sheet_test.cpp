@@ -160,7 +160,17 @@ TEST_CASE("a sheet's line is what its keys are") {
              Catch::Contains("material 'purr' of a data sheet is not known") && Catch::Contains("the thickness alone"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket PURR"),
              Catch::Contains("material 'purr'"));
+  CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm PURR"),
+             Catch::Contains("material 'purr'"));
   CHECK(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket thickness 1.1 mm") == "");
+  CHECK_THAT(refusal("7 x 0.5 mm2, weight ... kg/km"), Catch::Contains("kg/km' of a data sheet is not understood"));
+  CHECK_THAT(refusal("4 x AWG " + std::string(400, '2')), Catch::Contains("write 'CORES x N mm2'"));
+  CHECK_THAT(refusal(std::string(60'000, 'a')), Catch::Contains("data_sheet has 60000 bytes (at most 2000)"));
+  // Six cores around one of 1.8 mm are 5.4 mm wide, and a little more by their lay. The jacket has the rest.
+  const Node rest = parse_yaml(expanded("7 x 0.5 mm2, core diameter 1.8 mm, OD 8.2 mm, jacket PUR"), "pack.yaml");
+  const Node* const sheath = rest.find("components")->items[0].find("jacket");
+  REQUIRE(sheath);
+  CHECK(std::stod(sheath->find("thickness_mm")->text) == Approx((8.2 - 5.4) / 2).margin(0.05));
   CHECK_THAT(
       refusal("7 x 0.5 mm2, sausage, wire 0.1 mm"),
       Catch::Contains("'sausage' of a data sheet is not understood") && Catch::Contains("dresslife manual data_sheet"));

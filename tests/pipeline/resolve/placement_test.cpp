@@ -173,6 +173,10 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK(std::count(sheet.begin(), sheet.end(), '\n') == 0);
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", "  - {name: a, place: auto}\n" + cable("lead", 3, 5))),
              Contains("has place: auto and no radius_mm"));
+  for (const char* huge : {"1e17", "inf"})
+    CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", std::string("  - {name: a, place: auto, radius_mm: ") +
+                                                                huge + "}\n" + cable("lead", 3, 5))),
+               Contains("has place: auto and a radius_mm of more than "));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: middle"))),
              Contains("place is 'middle' (must be auto)"));
   CHECK_THAT(
