@@ -79,6 +79,13 @@ void merge_by_name(Node& base, const Node& over) {
   }
 }
 
+/// Returns whether a key of a robot's entry belongs to its URDF.
+bool is_of_urdf(std::string_view key) {
+  constexpr std::array<std::string_view, 5> keys{"urdf", "tip", "package_folder", "collision",
+                                                 "accelerations_deg_per_s2"};
+  return std::ranges::find(keys, key) != keys.end();
+}
+
 /// Checks that a URDF's robot gets its accelerations, which no URDF has. Without this check the lines of the URDF would be
 /// reported as incomplete.
 void check_accelerations(const Node& robot, const UrdfRequest& request, const Where& asked) {
@@ -109,9 +116,7 @@ void check_accelerations(const Node& robot, const UrdfRequest& request, const Wh
 /// Reads `urdf: FILE` with the keys that belong to it. All other keys of the entry replace those of the robot.
 void read_urdf(Node& entry) {
   Node about = entry, over = entry;
-  constexpr std::array<std::string_view, 5> keys{"urdf", "tip", "package_folder", "collision",
-                                                 "accelerations_deg_per_s2"};
-  const auto is_about = [&](const Entry& e) { return std::ranges::find(keys, e.key) != keys.end(); };
+  const auto is_about = [](const Entry& e) { return is_of_urdf(e.key); };
   std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
   std::erase_if(over.entries, is_about);
   UrdfRequest request;
@@ -192,9 +197,13 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
   if (const Node* const factor = entry.find(lay_factor); factor && base.is_map()) base[lay_factor] = *factor;
-  resolve(base, folder, job, depth + 1);
   Node over = entry;
-  std::erase_if(over.entries, [](const Entry& e) { return e.key == "from"; });
+  std::erase_if(over.entries, [&](const Entry& e) {
+    const bool of_urdf = folder == "robots" && is_of_urdf(e.key) && base.is_map();
+    if (of_urdf) base[e.key] = e.value;
+    return of_urdf || e.key == "from";
+  });
+  resolve(base, folder, job, depth + 1);
   merge(base, over);
   entry = std::move(base);
 }
@@ -425,15 +434,20 @@ void apply_lines(Node& job) {
 
 namespace {
 
+/// Prepares an entry for a key that must be known before the entry is resolved.
+void open_entry(Node& entry) {
+  if (!entry.is_scalar()) return;
+  Node named;
+  named.where = entry.where;
+  named["from"] = entry;
+  entry = std::move(named);
+}
+
 /// Prepares a dresspack for a factor of its estimated lays, which must be known before `cable` is resolved.
 void expect_lay_factor(Node& dresspack, const Where& where) {
-  if (dresspack.is_scalar()) {
-    Node named;
-    named.where = dresspack.where;
-    named["from"] = dresspack;
-    dresspack = std::move(named);
-  } else if (const Node* const estimates = dresspack.find("estimates");
-             estimates && estimates->text.find("lay_length_mm") != std::string::npos) {
+  open_entry(dresspack);
+  if (const Node* const estimates = dresspack.find("estimates");
+      estimates && estimates->text.find("lay_length_mm") != std::string::npos) {
     throw InputError(
         where,
         "estimated_lay_factor comes too late: another key of the dresspack was set before, so its lays are known",
@@ -454,6 +468,8 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     const char* const folder = here > 0 ? shelf_of(path.substr(0, here - 1)) : nullptr;
     if (folder && word == lay_factor)
       expect_lay_factor(*nodes.front(), where);
+    else if (folder && folder == std::string_view("robots") && is_of_urdf(word))
+      open_entry(*nodes.front());
     else if (folder && word != "from" && word != "cable")
       resolve(*nodes.front(), folder, job.where);
     std::vector<Node*> next;

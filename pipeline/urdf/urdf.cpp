@@ -342,6 +342,11 @@ class Chain {
 
   /// Adds a track: it carries the base; links before it belong to the world.
   void add_slide(const urdf::Joint& joint, const Isometry3d& origin) {
+    if (joint.mimic)
+      fail(at(joint),
+           fmt::format("joint '{}' slides and mimics '{}' (a track has a drive of its own)", joint.name,
+                       joint.mimic->joint_name),
+           "leave out <mimic>, or make it fixed");
     external_.push_back(Tree(at(joint))
                             .text("name", joint.name)
                             .text("kind", "linear")
@@ -388,7 +393,10 @@ class Chain {
       const urdf::Joint* joint = moved.joint;
       for (std::size_t hops = 0; joint->mimic; ++hops) {
         const auto driver = index.find(joint->mimic->joint_name);
-        if (driver == index.end() || hops > moved_.size())
+        if (hops > moved_.size())
+          fail(at(*moved.joint), fmt::format("joint '{}' mimics itself, directly or through others", moved.joint->name),
+               "let one joint of the circle mimic none");
+        if (driver == index.end())
           fail(at(*moved.joint),
                fmt::format("joint '{}' mimics '{}', which is no axis of the chain", moved.joint->name,
                            joint->mimic->joint_name),

@@ -233,7 +233,10 @@ TEST_CASE("urdf: what is wrong is reported with its line") {
   refused("<mimic joint=\"j2\"", "<mimic joint=\"grip\"", "<joint name=\"level\"",
           "joint 'level' mimics 'grip', which is no axis of the chain; choose another tip");
   refused("<mimic joint=\"j2\"", "<mimic joint=\"level\"", "<joint name=\"level\"",
-          "joint 'level' mimics 'level', which is no axis of the chain");
+          "joint 'level' mimics itself, directly or through others; let one joint of the circle mimic none");
+  refused("<joint name=\"stand\" type=\"fixed\">",
+          "<joint name=\"stand\" type=\"prismatic\"><limit effort=\"0\" velocity=\"1\"/><mimic joint=\"j2\"/>",
+          "<joint name=\"stand\"", "joint 'stand' slides and mimics 'j2'");
   refused("<joint name=\"j4\" type=\"revolute\">", "<joint name=\"j4\" type=\"prismatic\">", "<joint name=\"j4\"",
           "joint 'j4' does not turn (only the base may slide); choose another tip");
   refused("lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"",
@@ -308,6 +311,10 @@ TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of 
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   CHECK(job_text(with_links({"robot={urdf: " + (scratch / "palletizer.urdf").string() +
                              ", accelerations_deg_per_s2: [1, 1, 1, 1]}"})) != job_text(job));
+  const std::string slow = "robot.accelerations_deg_per_s2=[1, 1, 1, 1]";
+  for (const std::string& robot : {std::string("robot=mine"), "robot=" + (scratch / "palletizer.urdf").string(),
+                                   "robot={urdf: " + (scratch / "palletizer.urdf").string() + "}"})
+    CHECK(with_links({robot, slow}).robot.joints[1].acceleration == Approx(1 * degree));
   CHECK_THAT(message_of([&] { with_links({"robot=" + (scratch / "palletizer.urdf").string()}); }),
              Catch::Contains("has no accelerations of j1"));
   const std::string five = (scratch / "palletizer.urdf").string() + ", accelerations_deg_per_s2: [1, 1, 1, 1, 1]}";
