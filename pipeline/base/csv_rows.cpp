@@ -82,8 +82,14 @@ CsvRow CsvReader::cells() {
       separator_ = stated[0];
       return {};
     }
+    std::string outside;  // of quotes
+    bool quoted = false;
+    for (const char letter : line) {
+      quoted ^= letter == '"';
+      if (!quoted) outside += letter;
+    }
     const auto found =
-        std::ranges::find_if(separators_, [&](char separator) { return line.find(separator) != line.npos; });
+        std::ranges::find_if(separators_, [&](char separator) { return outside.find(separator) != outside.npos; });
     separator_ = found == separators_.end() ? separators_.front() : *found;
   }
   CsvRow row{cell()};

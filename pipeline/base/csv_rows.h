@@ -25,7 +25,7 @@ std::optional<double> number_in(std::string_view text);
 
 class CsvReader {
  public:
-  /// file: for messages. separators: the first of these characters that occurs in the first row is the separator.
+  /// file: for messages. separators: the first of these characters that occurs in the first row outside of quotes is the separator.
   CsvReader(std::string text, std::string file, std::string_view separators = ",\t;");
   /// Reads a file of any size and keeps a few megabytes of it in memory. Errors: InputError for a line longer than one megabyte.
   CsvReader(PlainFile file, std::string_view separators);

@@ -982,6 +982,16 @@ void doubt_order_of_quaternions(const Motion& motion, const WarningsOfKind& add)
     }
 }
 
+/// Replaces `routing.KEY` by the key of a job with a list of dresspacks.
+std::vector<Warning> with_keys_of(const Job& job, std::size_t dresspack, std::vector<Warning> warnings) {
+  const std::string_view alone = "routing.";
+  const std::string own = line_key(job, dresspack, std::string(alone));
+  for (Warning& warning : warnings)
+    for (std::size_t at = 0; (at = warning.words.find(alone, at)) != std::string::npos; at += own.size())
+      warning.words.replace(at, alone.size(), own);
+  return warnings;
+}
+
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
   const WarningsOfKind doubt(warnings, WarningKind::motion), periodic(warnings, WarningKind::periodic);
@@ -990,13 +1000,17 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   doubt_order_of_quaternions(job.motion, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
   doubt_boxes(job.cell, job.robot, doubt);
-  for (const MountedDresspack& mounted : job.dresspacks)
-    doubt_routing(mounted.routing, mounted.dresspack, job.robot, job.simulation.segments, doubt);
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
+    std::vector<Warning> of_routing;
+    doubt_routing(job.dresspacks[d].routing, job.dresspacks[d].dresspack, job.robot, job.simulation.segments,
+                  WarningsOfKind(of_routing, WarningKind::motion));
+    warnings = joined(std::move(warnings), with_keys_of(job, d, std::move(of_routing)));
+  }
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
-  for (const MountedDresspack& mounted : job.dresspacks) {
-    warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.routing), "routing"));
-  }
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    warnings = joined(std::move(warnings),
+                      with_keys_of(job, d, radians_in(echo_fields(job.dresspacks[d].routing), "routing")));
   periodic.number({}, "simulation.most_repeats", "", job.simulation.most_repeats, {0, repeats_to_steady}, {},
                   {"the repeats in the dresspack's life: the life is extrapolated from one repeat",
                    "simulation.most_repeats: 8, or no key"});

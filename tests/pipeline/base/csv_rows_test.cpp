@@ -30,6 +30,7 @@ TEST_CASE("CSV: a comma separates, else the tabs or semicolons of the first line
   CHECK(all_of({"a;b\n1,5;2\n", "f"}) == "1:[a][b] 2:[1,5][2] ");
   CHECK(all_of({"a\tb c\n\t2\n", "f"}) == "1:[a][b c] 2:[][2] ");
   CHECK(all_of({"a;b,c\n1;2,3\n", "f"}) == "1:[a;b][c] 2:[1;2][3] ");
+  CHECK(all_of({"\"a, b\";c\n1,5;2\n", "f"}) == "1:[a, b][c] 2:[1,5][2] ");
   CHECK(all_of({"a;b\n1,2\n", "f", ","}) == "1:[a;b] 2:[1][2] ");
   CHECK(all_of({"\xEF\xBB\xBFsep=;\r\na,b;c\n", "f"}) == "2:[a,b][c] ");
   CHECK(all_of({"sep=\na\n", "f"}) == "1:[sep=] 2:[a] ");

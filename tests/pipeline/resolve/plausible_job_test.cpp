@@ -596,6 +596,10 @@ TEST_CASE("plausible jobs: a clamp in the air") {
              Catch::Contains("lies 0.759 m from all shapes of l6") && Catch::Contains("robot.links.7.boxes"));
   job.dresspacks[0].routing.longest_bracket = 0.8;
   CHECK(with("l6", {0, 0.72, -0.24}) == "");
+  job.dresspacks.push_back(job.dresspacks[0]);
+  CHECK_THAT(with("l3", {0.1, -0.02, -1.17}),
+             Catch::Contains("dresspacks.1.routing.base_clamp.position_m lies 0.97 m"));
+  job.dresspacks.pop_back();
   job.robot.links[3].meshes.emplace_back();  // meshes are not read in this check
   CHECK(with("l3", {0, 0, 2.9}) == "");
 }
