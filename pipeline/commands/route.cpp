@@ -177,11 +177,11 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
     finalists.push_back(std::move(finalist));
   }
   const auto progress = [&](const ToleranceCount& count) { runs.begin(count); };
-  std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);
-  const std::size_t best = best_within(judged);
   std::optional<std::size_t> own;
-  for (std::size_t k = 0; k < judged.size(); ++k)
+  for (std::size_t k = 0; k < best_first.size(); ++k)
     if (best_first[k] == trial.start) own = k;
+  std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress, own);
+  const std::size_t best = best_within(judged);
   // The bound of a routing that keeps all limits so far may be too high.
   if (own && best != *own && !judged[*own].whole && judged[*own].worst.kept >= Kept::limits)
     judged[*own] = within_tolerance(
@@ -202,7 +202,18 @@ void prefer_own(Trial& trial) {
     trial.best = trial.start;
 }
 
+/// Refuses changes of keys that the search replaces.
+void refuse_replaced_keys(const std::vector<std::string>& sets) {
+  for (const std::string& set : sets) {
+    const std::string key = set.substr(0, set.find('='));
+    if (key == "routing" || (key.starts_with("routing.") && !is_kept_by_search(key.substr(8))))
+      throw InputError({"--set " + set}, fmt::format("{} is replaced by the search", key),
+                       "leave it out, or write it into the job, whose routing is compared with those that are found");
+  }
+}
+
 /// Returns the routing of the given job as YAML; absent: the job has no complete routing, or not on the links that are asked for.
+/// Errors: InputError for a complete routing that is not valid.
 std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& options) {
   const Node* const routing = draft.document.find("routing");
   if (draft.exercise || !routing) return {};
@@ -215,11 +226,11 @@ std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& o
       !is_on(routing->find("tool_clamp"), options.request.tool_link) ||
       !is_on(rings && rings->items.size() == 1 ? &rings->items.front() : nullptr, options.ring))
     return {};
-  try {
-    job_from(draft.document);
-  } catch (const InputError&) {  // the job lacks keys that the search finds
-    return {};
-  }
+  for (const char* key : {"base_clamp", "tool_clamp"})
+    if (const Node* const clamp = routing->find(key); !clamp || (clamp->is_map() && clamp->entries.size() < 2))
+      return {};
+  if (!routing->find("free_length_m")) return {};
+  job_from(draft.document);
   return to_yaml(*routing);
 }
 
@@ -237,11 +248,11 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
 }
 
 /// Runs the proposals that kept all limits in their short run, and the job's own routing. With a tolerance all of them are run,
-/// because the tolerance decides; else until one keeps all limits in the whole chain.
+/// because the tolerance decides; else until one keeps all limits in the whole chain. own: own_routing().
 Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
-            const FilesAtStart& files, const fs::path& job) {
+            const FilesAtStart& files, const fs::path& job, const std::optional<std::string>& own) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
-  if (const std::optional<std::string> own = own_routing(draft, options); own && factor == 1) {
+  if (own && factor == 1) {
     trial.start = trial.proposals.candidates.size();
     ScreenedCandidate& candidate = trial.proposals.candidates.emplace_back();
     candidate.changes = *own;
@@ -455,8 +466,10 @@ void remove_others(const fs::path& folder, const std::string& winner) {
 
 int route(const RouteOptions& options) {
   RouteRequest request = options.request;
+  refuse_replaced_keys(request.sets);
   if (options.bracket_mm) request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
   Draft draft = draft_of(request);
+  const std::optional<std::string> own = own_routing(draft, options);
   for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
   fill_tool_space(draft);
   if (draft.tool_space && !options.quiet)
@@ -486,7 +499,7 @@ int route(const RouteOptions& options) {
   std::optional<Trial> chosen, nearest;
   std::string ended;
   for (const double factor : factors) {
-    Trial trial = tried(draft, options, factor, places, files, job);
+    Trial trial = tried(draft, options, factor, places, files, job, own);
     const bool feasible = trial.feasible();
     ended = trial.ended;
     if (!ended.empty())
@@ -517,7 +530,7 @@ int route(const RouteOptions& options) {
   }
   const Trial& of = chosen ? *chosen : *nearest;
   const std::string& routing = of.proposals.candidates[of.best.value_or(0)].changes;
-  write_job(of, draft, options, job, "");
+  write_job(of, draft, options, job, ended.empty() ? "" : not_verified);
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
   print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options), job)

@@ -28,11 +28,12 @@ struct ImprovementStory {
   struct Nudge {
     std::string what;  ///< "base clamp, z + 10 mm"
     bool ran = false;
-    double share = 0;          ///< life with this change over the life without it
+    double share = 0;          ///< life with this change over the life without it; 0 also if the latter is endless
     std::string words;         ///< violated limits; empty: none
     std::string first_mode{};  ///< first mode without a validated law within the robot's life; empty: none
     double first_hours = 0;    ///< hours until 1 of 10 has failed by first_mode
     bool estimated = false;    ///< whether both lives are estimates by runs without uncertain inputs
+    double hours = 0;          ///< life of the wires with this change
   };
 
   std::string name;

@@ -84,6 +84,18 @@ TEST_CASE("route refuses what it cannot route") {
         "--scale: error: 'big' is neither auto nor a number from 0.05 to 2; write one\n");
   CHECK(run(scratch, "dresslife", "route abb_irb2600_12_165 --ring link_9 --scale 1").status == 1);
   CHECK(run(scratch, "dresslife", "route").status == 2);
+  CHECK(
+      run(scratch, "dresslife", "route side_panel --set routing.free_length_m=2").err ==
+      "--set routing.free_length_m=2: error: routing.free_length_m is replaced by the search; leave it out, or write it "
+      "into the job, whose routing is compared with those that are found\n");
+  scratch.write("broken.yaml",
+                "robot: abb_irb6640_185_280\nmotion: easy\ndresspack: sensor_cable\nrouting:\n"
+                "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+                "  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}\n"
+                "  free_length_m: -2\n");
+  const Outcome broken = run(scratch, "dresslife", "route broken.yaml");
+  CHECK(broken.status == 1);
+  CHECK_THAT(broken.err, Catch::StartsWith("broken.yaml:7:"));
 }
 
 TEST_CASE("route and improve refuse a cable that no routing can give room, before any search") {

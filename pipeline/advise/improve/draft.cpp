@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "pipeline/advise/improve/scaled.h"
@@ -79,10 +80,12 @@ std::string link_or(const std::string& asked, const Node* routing, const char* c
   return link && link->is_scalar() ? link->text : otherwise;
 }
 
-/// Keeps the keys of a routing that a search does not change. given: null: no routing.
+constexpr std::array kept_settings{"mounting_pose_deg", "longest_bracket_mm", "side"};
+
+/// Adds the kept keys of a routing that the found one does not have. given: null: no routing.
 void keep_settings(Node& routing, const Node* given) {
-  for (const char* key : {"mounting_pose_deg", "longest_bracket_mm"})
-    if (const Node* value = given ? given->find(key) : nullptr) routing[key] = *value;
+  for (const char* key : kept_settings)
+    if (const Node* value = given ? given->find(key) : nullptr; value && !routing.find(key)) routing[key] = *value;
 }
 
 /// Returns clamps on the links, with placeholders for positions and length.
@@ -113,17 +116,21 @@ bool counts_from(const Node& entry, const fs::path& folder) {
          std::ranges::all_of(entry.entries, [&](const Entry& one) { return within(one.value); });
 }
 
+/// Returns the name of an entry's file for a job in another folder.
+Node file_from(const Node& entry, const fs::path& folder) {
+  Node named = scalar((fs::path(".") / as_seen_from(folder, folder_of(entry) / entry.text)).string());
+  place_at(named, entry.where);
+  return named;
+}
+
 /// Returns an entry for a job in another folder: a file is named by its path from that folder. A null node: no reference is
 /// possible, so the entry must be written out.
 Node reference(const Node& entry, const std::optional<fs::path>& folder) {
   if (!folder) return {};
   if (counts_from(entry, *folder)) return entry;
   if (!entry.is_scalar() || !fs::path(entry.text).has_extension()) return {};
-  const fs::path beside = folder_of(entry);
-  if (kind_of(beside / entry.text) != FileKind::file) return {};
-  Node named = scalar((fs::path(".") / as_seen_from(*folder, beside / entry.text)).string());
-  place_at(named, entry.where);
-  return named;
+  if (kind_of(folder_of(entry) / entry.text) != FileKind::file) return {};
+  return file_from(entry, *folder);
 }
 
 std::string fit_for_a_file(std::string name) {
@@ -133,6 +140,11 @@ std::string fit_for_a_file(std::string name) {
 }
 
 }  // namespace
+
+bool is_kept_by_search(std::string_view key) {
+  const auto is_in = [&](std::string_view kept) { return key == kept || key.starts_with(std::string(kept) + "."); };
+  return key == "base_clamp.link" || key == "tool_clamp.link" || std::ranges::any_of(kept_settings, is_in);
+}
 
 Draft draft_of(const RouteRequest& request) {
   Draft draft;
@@ -231,6 +243,8 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
   else
     replace("dresspacks", "dresspack");
   if (document.find("cell")) replace("cells", "cell");
+  if (Node* const of = document.find("calibration"); of && of->is_scalar() && folder && !counts_from(*of, *folder))
+    *of = file_from(*of, *folder);
   Node found = parse_yaml(routing, std::string(command_line));
   keep_settings(found, document.find("routing"));
   document["routing"] = std::move(found);

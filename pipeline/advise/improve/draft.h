@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/job/job.h"
@@ -29,6 +30,9 @@ struct Draft {
   /// Line of a job with an estimated shape for the space of the program's tool; absent: its shape is known, or no tool is named.
   std::optional<Entry> tool_space{};
 };
+
+/// Returns whether a search keeps this key of a routing ("side"): it replaces all others.
+bool is_kept_by_search(std::string_view key);
 
 /// Makes a draft. Errors: InputError for a name that is neither job nor robot; unknown links; more than one dresspack.
 Draft draft_of(const RouteRequest& request);

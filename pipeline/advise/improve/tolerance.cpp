@@ -78,7 +78,8 @@ void add(WithinTolerance& judged, const Finalist& of, std::size_t number, const 
                                       outcome.words(),
                                       ran ? mode.mode : "",
                                       ran ? mode.hours : 0,
-                                      ran && is_estimated};
+                                      ran && is_estimated,
+                                      outcome.hours};
   const auto at = std::lower_bound(judged.numbers.begin(), judged.numbers.end(), number);
   const auto k = at - judged.numbers.begin();
   if (at != judged.numbers.end() && *at == number) {
@@ -197,10 +198,11 @@ WithinTolerance within_tolerance(const Finalist& of, const Outcome& as_it_is,
 }
 
 std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first, const Outcome& as_it_is,
-                                              const ToleranceProgress& progress) {
+                                              const ToleranceProgress& progress, std::optional<std::size_t> own) {
+  const std::size_t with_own = own ? *own + 1 : 0;
   std::vector<WithinTolerance> all;
   const auto admit_next = [&] { all.push_back(none_evaluated(best_first[all.size()], as_it_is)); };
-  while (all.size() < std::min(usually_judged, best_first.size())) admit_next();
+  while (all.size() < std::max(with_own, std::min(usually_judged, best_first.size()))) admit_next();
   while (true) {
     const auto runs = [](const WithinTolerance& one) { return one.worst.kept != Kept::nothing; };
     while (all.size() < best_first.size() && std::none_of(all.begin(), all.end(), runs)) admit_next();
@@ -219,7 +221,7 @@ std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_
     evaluate(*leader, of, next_of(of, *leader, others, as_it_is), as_it_is);
   }
   // Of equal finalists the first leads, so finalists without a run are at the end.
-  while (!all.empty() && all.back().numbers.empty() && !all.back().whole) all.pop_back();
+  while (all.size() > with_own && all.back().numbers.empty() && !all.back().whole) all.pop_back();
   return all;
 }
 
@@ -238,13 +240,18 @@ std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges, 
   for (const ImprovementStory::Nudge& nudge : nudges) {
     if (!nudge.words.empty()) broken.push_back(nudge.what + ": " + nudge.words);
     if (!nudge.ran) continue;
-    if (std::isfinite(nudge.share) && (!shortest || nudge.share < shortest->share)) shortest = &nudge;
+    if (std::isfinite(nudge.share) &&
+        (!shortest || std::pair(nudge.share, nudge.hours) < std::pair(shortest->share, shortest->hours)))
+      shortest = &nudge;
     if (!nudge.first_mode.empty() && (!earliest || nudge.first_hours < earliest->first_hours)) earliest = &nudge;
   }
   std::vector<std::string> parts;
-  if (shortest)
-    parts.push_back(fmt::format("the wires live at least {}{:.2g} times as long ({})",
-                                shortest->estimated ? "about " : "", shortest->share, shortest->what));
+  if (shortest) {
+    const std::string life = shortest->share > 0 ? fmt::format("{:.2g} times as long", shortest->share)
+                                                 : hours_text(shortest->hours);  // they are not damaged as drawn
+    parts.push_back(
+        fmt::format("the wires live at least {}{} ({})", shortest->estimated ? "about " : "", life, shortest->what));
+  }
   if (earliest)
     parts.push_back(fmt::format("{} comes after {} at the earliest ({})", earliest->first_mode,
                                 hours_text(earliest->first_hours), earliest->what));

@@ -77,9 +77,11 @@ WithinTolerance within_tolerance(const Finalist& finalist, const Outcome& as_it_
                                  const std::vector<WithinTolerance>& others, const ToleranceProgress& progress);
 
 /// Returns the results of the finalists that had to be evaluated, in their order; at least one is whole. best_first: finalists by
-/// falling merit. as_it_is: outcome of the original job (merit_of()).
+/// falling merit. as_it_is: outcome of the original job (merit_of()). own: index of the original job, which is in the answer, at
+/// least with the bound of its merit without offset.
 std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first, const Outcome& as_it_is,
-                                              const ToleranceProgress& progress = {});
+                                              const ToleranceProgress& progress = {},
+                                              std::optional<std::size_t> own = {});
 
 /// Returns the index of the largest m_w among the whole results. own: index of the original job. It stays the choice if no other
 /// result is clearly better than its bound (merit.h). Precondition: at least one is whole.

@@ -131,6 +131,22 @@ TEST_CASE("entries of a job stay references in its own folder, and in another on
   CHECK(part_text(read_job(other), JobPart::sim) == part_text(read_job(found), JobPart::sim));
 }
 
+TEST_CASE("a routed job keeps its calibration in another folder, and the side of its hose") {
+  const Scratch scratch;
+  const std::string job = read_text(DRESSLIFE_SOURCE_DIR "/config/jobs/side_panel.yaml");
+  std::filesystem::copy_file(DRESSLIFE_SOURCE_DIR "/config/observations/typical_cables.yaml", scratch / "cal.yaml");
+  const auto file = scratch.write("job.yaml", job + "calibration: cal.yaml\n");
+  const Draft draft = draft_of({.of = file.string(), .sets = {"routing.side=right"}});
+  CHECK(draft.job.dresspacks.front().routing.side == Side::right);
+  CHECK(routed(draft, found_routing, "", 1).find("routing")->find("side")->text == "right");
+  CHECK(routed(draft, found_routing + "side: left\n", "", 1).find("routing")->find("side")->text == "left");
+  CHECK(routed(draft, found_routing, "", 1, scratch / ".").find("calibration")->text == "cal.yaml");
+  std::filesystem::create_directories(scratch / "other");
+  const Node other = routed(draft, found_routing, "", 1, scratch / "other");
+  CHECK(other.find("calibration")->text == "./../cal.yaml");
+  CHECK(read_job(scratch.write("other/found.yaml", to_yaml(other))).calibration.has_value());
+}
+
 TEST_CASE("the worst of several jobs has the least life and the most of each limit") {
   Outcome good, tight;
   good.hours = std::numeric_limits<double>::infinity();

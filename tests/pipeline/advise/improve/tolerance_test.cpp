@@ -75,6 +75,17 @@ TEST_CASE("tolerance: the job's own routing stays, unless another one is clearly
   CHECK(chosen(other) == 1);  // 2 % is no difference
 }
 
+TEST_CASE("tolerance: the job's own routing is judged, whatever its place among the finalists") {
+  int runs = 0;
+  const std::vector<Finalist> finalists{finalist(1000, {995, 999}, runs), finalist(990, {400, 980}, runs),
+                                        finalist(980, {400, 970}, runs), finalist(950, {940, 945}, runs)};
+  CHECK(within_tolerance(finalists, outcome(950)).size() == 1);
+  const std::vector<WithinTolerance> judged = within_tolerance(finalists, outcome(950), {}, 3);
+  REQUIRE(judged.size() == 4);
+  CHECK(judged[3].worst.hours == 950);  // its bound
+  CHECK(best_within(judged, 3) == 3);   // 995 h are not clearly more
+}
+
 TEST_CASE("tolerance: of random finalists the winner is that of a whole evaluation, with fewer runs") {
   std::mt19937 random(7);
   std::lognormal_distribution<double> spread(0, 0.7);
@@ -269,6 +280,11 @@ TEST_CASE("tolerance: the words name the tolerance, the loss and where it occurs
   CHECK(tolerance_words({}, tolerance).empty());
   const Nudge endless{"length, - 10 mm", true, std::nan(""), "", "", 0};  // no damage with or without the deviation
   CHECK(tolerance_words({endless}, tolerance) == with + "all limits are kept.\n");
+  // Without damage as drawn there is no ratio, but there are hours.
+  const Nudge damaged{"length, + 10 mm", true, 0, "", "", 0, false, 7000},
+      worse{"turn", true, 0, "", "", 0, false, 600};
+  CHECK(tolerance_words({damaged, worse}, tolerance) ==
+        with + "the wires live at least 600 h (turn), and all limits are kept.\n");
   Nudge estimate = good;
   estimate.estimated = true;
   CHECK_THAT(tolerance_words({bad, estimate}, tolerance),
