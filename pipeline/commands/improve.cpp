@@ -173,8 +173,16 @@ int improve_study(ImproveOptions options) {
   const StudyPlaces& places = own.places;
   const fs::path job = name + "_improved.yaml";
   check_replaceable(job);
+  const Study study = read_study(options.request.file, options.sets);
+  const FilesAtStart files = files_of(study);
+  if (const MountingTolerance by = tolerance_of(options.off_mm, options.off_deg);
+      !by.none() && nudges_of(study.jobs, by).empty()) {
+    write_stderr(
+        "note: the mounting tolerance is not tried, because an offset is that of one routing, and the routings of the jobs "
+        "differ. --off 0 leaves out this note.\n");
+    options.off_mm = 0, options.off_deg.reset();
+  }
   SearchProgress progress(name, options);
-  const FilesAtStart files = files_of(read_study(options.request.file, options.sets));
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, progress.shown_here(options, study), files); },
       [&](const Improvement& so_far) {

@@ -293,6 +293,13 @@ TEST_CASE("improve refuses what it cannot search") {
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
   CHECK(run(scratch, "dresslife", "improve bad.yaml").err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") ==
         0);
+  // A mounting tolerance is that of one routing.
+  scratch.write("two.yaml",
+                "base: job.yaml\njobs: {a: {}, b: {routing.base_clamp.position_m.1: 0.01}}\n"
+                "free: {routing.nothing_m: 1 .. 2}\n");
+  CHECK_THAT(run(scratch, "dresslife", "improve two.yaml").err,
+             Catch::StartsWith("note: the mounting tolerance is not tried"));
+  CHECK_THAT(run(scratch, "dresslife", "improve two.yaml --off 0").err, !Catch::Contains("mounting tolerance"));
   // No trial keeps the limit, and the exit status states this. If it is exceeded by far, no trial is run.
   const auto improved = [&](const std::string& radius) {
     return run(scratch, "dresslife",

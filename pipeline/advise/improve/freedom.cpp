@@ -269,7 +269,7 @@ class Reader {
 
   std::unique_ptr<FreeKey> around(std::string spread, const std::string& centre) const {
     const std::size_t degrees = spread.find(" deg");
-    const bool given = centre.find('[') != std::string::npos;
+    const bool given = !trimmed(centre).empty();
     if (degrees != std::string::npos) {
       const double angle = number(spread.substr(0, degrees));
       if (!(angle > 0 && angle <= 80))
@@ -280,7 +280,8 @@ class Reader {
     }
     const double far = number(spread);
     if (!(far > 0)) refuse("may not change at all", "give a spread above 0");
-    if (given) return std::make_unique<PositionBox>(given_vector(centre), far);
+    if (centre.find('[') != std::string::npos) return std::make_unique<PositionBox>(given_vector(centre), far);
+    if (given) return std::make_unique<NumberRange>(number(centre) - far, number(centre) + far);
     if (const std::optional<Vector3d> vector = vector_of(own_value()))
       return std::make_unique<PositionBox>(*vector, far);
     if (const std::optional<double> value = number_of(own_value()))

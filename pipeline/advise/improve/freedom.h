@@ -7,7 +7,8 @@
 //     routing.base_clamp.position_m: -0.2 .. 0.3 along link_3   a shift from the job's position along the axis of link_3
 //     routing.base_clamp.position_m: -0.2 .. 0.3 along [1, 0, 0]   a shift along a direction
 //
-// A number with `around` may differ from the job's value by this amount, up or down.
+// A number with `around` may differ from the job's value by this amount, up or down. A value after `around` replaces that of the job
+// as the centre: 0.1 around 2.2, 0.05 around [0, 0, 0.4], 30 deg around [1, 0, 0].
 #pragma once
 
 #include <Eigen/Core>
@@ -48,7 +49,7 @@ class Freedom {
   static Freedom from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs);
 
   /// Returns the default map: the length from a tenth shorter to a third longer, all clamps and rings by 150 mm and 45 deg, the
-  /// roll of the tool clamp by half a turn. Errors: InputError for a job without clamps on a robot.
+  /// roll of the tool clamp by half a turn.
   static Node usual(const Job& job);
 
   Eigen::Index variables() const;

@@ -157,8 +157,12 @@ class Improver {
     if (of == done_.trials.size()) return;
     const Trial bare = done_.trials[of];
     if (best ? !bare.breaks_beside_clamp : !(bare.worst.beyond[bend_limit] > 0)) return;
+    const std::vector<StudyJob> jobs = changed_jobs(request_, bare.sets, "bare");
+    const std::vector<std::vector<std::string>> reliefs = reliefs_of(*jobs.front().job);
+    // A relief is one value in all jobs, so jobs that need different ones have none.
+    if (std::ranges::any_of(jobs, [&](const StudyJob& job) { return reliefs_of(*job.job) != reliefs; })) return;
     std::vector<std::vector<std::string>> sets;
-    for (const std::vector<std::string>& relief : reliefs_of(*changed_jobs(request_, bare.sets, "bare").front().job)) {
+    for (const std::vector<std::string>& relief : reliefs) {
       sets.push_back(bare.sets);
       sets.back().insert(sets.back().end(), relief.begin(), relief.end());
       for (const std::string& set : relief)

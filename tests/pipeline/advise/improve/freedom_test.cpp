@@ -112,6 +112,14 @@ TEST_CASE("directions stay in their cone, and the job's own lies in its middle")
   CHECK((vector_of(about.sets_at(*about.place_of_job()).front()) - own).norm() < 2e-4);
 }
 
+TEST_CASE("a given centre replaces the job's own value") {
+  const Freedom length = freed("routing.free_length_m: 0.1 around 2.2");
+  CHECK(length.sets_at(place_of({0})) == std::vector<std::string>{"routing.free_length_m=2.1"});
+  CHECK(length.sets_at(place_of({1})) == std::vector<std::string>{"routing.free_length_m=2.3"});
+  for (const std::string range : {"0.1 around here", "20 deg around 1"})
+    CHECK_THROWS_WITH(freed("routing.tool_clamp.direction: " + range), Catch::Contains("' is no "));
+}
+
 TEST_CASE("positions move in a box, along a line, along a link") {
   const Freedom box = freed("routing.base_clamp.position_m: 0.05 around");
   CHECK(box.sets_at(place_of({0, 0.5, 1})) ==
