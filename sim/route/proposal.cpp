@@ -54,11 +54,16 @@ constexpr double most_work_near =
     5e6;  // of short runs near a given routing, in the unit of World::work: 2.4 s of processor time
 constexpr int side_by_side = 4;  // short runs at the same time, independent of the number of threads
 
+std::array<Vector3, places> zeros() {
+  std::array<Vector3, places> all;
+  all.fill(Vector3::Zero());
+  return all;
+}
+
 struct Candidate {
-  std::array<Vector3, places>
-      position;  // in the frames of their links, at places for brackets, in whole millimetres [m]
-  std::array<Vector3, places> direction;  // in the frames of their links
-  double slack = 0;                       // share of the length
+  // in the frames of their links, at places for brackets, in whole millimetres [m]; 0 without a ring
+  std::array<Vector3, places> position = zeros(), direction = zeros();
+  double slack = 0;  // share of the length
   pipeline::Routing routing{};
   Screening screening{};
   double missing = 0;             // violation by geometry
@@ -171,17 +176,18 @@ class Search {
   /// changes adapts to their success. Of a few changes the best by geometry gets a short run; its wished radius in the geometry is
   /// increased by the radius that its parent lacked in its run.
   std::vector<Candidate> search_by_short_runs() {
-    constexpr int begun = 12;               // searches by geometry only
-    constexpr double hopeless = 0.5;        // violation of the best of the first third at which the search ends
-    constexpr std::size_t parents = 5;      // number of parents that are kept
-    constexpr double geometry_share = 0.3;  // share of the time, approximately
+    constexpr int begun = 12;         // searches by geometry only
+    constexpr double hopeless = 0.5;  // violation of the best of the first third at which the search ends
+    const std::size_t parents = std::max<std::size_t>(5, settings_.count);  // number of parents that are kept
+    constexpr double geometry_share = 0.3;                                  // share of the time, approximately
+    const int each = std::max(10, settings_.tried / begun);
     std::vector<Candidate> beginnings, kept;
     for (int k = 0; k < begun; ++k) {
       report_progress(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
-      beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
+      beginnings.push_back(best_of(each));
     }
     if (std::all_of(beginnings.begin(), beginnings.end(), [](const Candidate& of) { return of.screening.rejected(); }))
-      return excluded(std::move(beginnings));
+      return excluded(std::move(beginnings), begun * each);
     double size = 1;
     int left = settings_.short_runs;
     // With 1 the proposals for two robots exceeded the bend limit with the softer hose; with 100 further runs, 6 times those of
@@ -238,8 +244,8 @@ class Search {
 
   static double next_size(double size, bool better) { return std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0); }
 
-  /// Returns the candidates with the smallest violation if none can run, with the reason.
-  std::vector<Candidate> excluded(std::vector<Candidate> all) const {
+  /// Returns the candidates with the smallest violation if none can run, with the reason. checked: number of routings.
+  std::vector<Candidate> excluded(std::vector<Candidate> all, int checked) const {
     std::stable_sort(all.begin(), all.end(),
                      [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
     all.resize(std::min(all.size(), static_cast<std::size_t>(settings_.count)));
@@ -249,8 +255,8 @@ class Search {
         if (const double g = candidate.screening.beyond[k]; g > surely_beyond[k])
           limits += fmt::format("{}{} by {:.2f} at {:.3f} s", limits.empty() ? "" : ", ",
                                 word(static_cast<ScreenedLimit>(k)), g, candidate.screening.time[k]);
-      candidate.short_run.refusal = fmt::format(
-          "geometry excludes all {} routings that were checked; the nearest is {}", settings_.tried, limits);
+      candidate.short_run.refusal =
+          fmt::format("geometry excludes all {} routings that were checked; the nearest is {}", checked, limits);
     }
     return all;
   }
