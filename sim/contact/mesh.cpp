@@ -130,6 +130,36 @@ void Mesh::gather(const Box& box, std::vector<int>& hits) const {
   }
 }
 
+// A projected edge counts at its lower end, but not at its upper one, and has the same sense in both of its triangles: a ray through
+// an edge or a corner crosses one of the triangles there.
+bool Mesh::contains(const Vector3& point) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<int> hits;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    Box line(point, point);
+    line.min()[axis] = -INFINITY, line.max()[axis] = INFINITY;
+    gather(line, hits);
+    bool above = false, below = false;  // odd numbers of crossings
+    for (const int hit : hits) {
+      const Triangle& t = triangles_[hit];
+      bool crossed = false;
+      for (int k = 0; k < 3; ++k) {
+        const Vector3 *low = &t[k], *high = &t[(k + 1) % 3];
+        if (((*low)[v] > point[v]) == ((*high)[v] > point[v])) continue;
+        if ((*low)[v] > (*high)[v]) std::swap(low, high);
+        const double share = (point[v] - (*low)[v]) / ((*high)[v] - (*low)[v]);
+        if (point[u] < (*low)[u] + share * ((*high)[u] - (*low)[u])) crossed = !crossed;
+      }
+      if (!crossed) continue;
+      const Vector3 normal = normal_of(t);
+      bool& side = normal.dot(t[0] - point) * normal[axis] > 0 ? above : below;
+      side = !side;
+    }
+    if (!above || !below) return false;
+  }
+  return true;
+}
+
 void Mesh::add_candidates(const Vector3& from, const Vector3& to, double reach, const std::vector<int>& hits,
                           std::vector<MeshContact>& found) const {
   for (const int k : hits) {

@@ -44,6 +44,10 @@ class Mesh {
   /// mesh's own frame. Costs O(log triangles) if few are near.
   std::vector<MeshContact> near(const Vector3& from, const Vector3& to, double reach) const;
 
+  /// Returns whether a point is inside a closed mesh: the rays along the axes, in both senses, all cross the surface an odd number
+  /// of times.
+  bool contains(const Vector3& point) const;
+
   double radius() const { return radius_; }  ///< of the ball about the origin that contains the mesh [m]
   const std::vector<Triangle>& triangles() const { return triangles_; }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "pipeline/job/line_key.h"
 #include "sim/contact/mesh.h"
 #include "sim/route/screening.h"
 #include "sim/run/checks.h"
@@ -33,6 +34,13 @@ struct Solid {
     for (const PlacedMesh& placed : meshes) {
       const Vector3 local = placed.frame.orientation.conjugate() * (point - placed.frame.position);
       if (local.norm() - placed.mesh.radius() > nearest) continue;
+      if (placed.mesh.contains(local)) {
+        double depth = std::numeric_limits<double>::infinity();
+        for (const Triangle& triangle : placed.mesh.triangles())
+          depth = std::min(depth, (nearest_point(triangle, local) - local).norm());
+        nearest = std::min(nearest, -depth);
+        continue;
+      }
       const auto found = placed.mesh.near(local, local, std::max(nearest, 0.0));
       if (!found.empty()) nearest = std::min(nearest, found.front().distance);
     }
@@ -82,35 +90,44 @@ double way_out(const Surfaces& surfaces, int link, const Vector3& position, cons
   return std::max(0.0, diameter - 2 * surfaces.of_link(link, point, diameter)) / (diameter * diameter);
 }
 
-std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup) {
-  if (setup.robot.links.empty() || !setup.simulation.contact) return {};
-  std::vector<pipeline::Warning> warnings;
-  std::optional<Surfaces> surfaces;
-  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
-    const double diameter = mounted.dresspack.diameter, radius = limits_of(mounted.dresspack).least_bend_radius;
+std::vector<WayOut> ways_out(const pipeline::Setup& setup, const Surfaces& surfaces) {
+  std::vector<WayOut> all;
+  if (!setup.simulation.contact) return all;
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
+    const double diameter = setup.dresspacks[d].dresspack.diameter;
     const auto see = [&](const pipeline::Clamp& clamp, const std::string& name, double sense) {
       const auto of = std::ranges::find(setup.robot.links, clamp.link, &pipeline::Link::name);
       if (of == setup.robot.links.end() || (of->capsules.empty() && of->boxes.empty() && of->meshes.empty())) return;
-      if (!surfaces) surfaces.emplace(setup);
       const int link = static_cast<int>(of - setup.robot.links.begin());
-      const double curvature = way_out(*surfaces, link, clamp.position, sense * clamp.direction, diameter);
-      if (curvature * radius <= 1) return;
-      const double depth = curvature * diameter * diameter / 2;
-      warnings.push_back(pipeline::warning_of(
-          pipeline::WarningKind::bend_radius, clamp.where.text(),
-          fmt::format(
-              "straight on from {}, the dresspack is {:.1f} mm inside {} at one diameter from the clamp: it comes out "
-              "with a bend radius of {:.1f} mm or less (limit {:.1f} mm), also where the segments are too long to show it",
-              name, 1e3 * depth, clamp.link, 1e3 / curvature, 1e3 * radius),
-          "the clamp lies in the surface of its link, or its direction leads into it",
-          fmt::format("{}.position_m {:.0f} mm farther from the surface, or a direction that leads away from it", name,
-                      std::ceil(1e3 * depth))));
+      all.push_back({d, &clamp, pipeline::line_key(setup, d, "routing." + name),
+                     way_out(surfaces, link, clamp.position, sense * clamp.direction, diameter)});
     };
-    const pipeline::Routing& routing = mounted.routing;
-    if (routing.base_clamp && !routing.retraction) see(*routing.base_clamp, "routing.base_clamp", 1);
+    const pipeline::Routing& routing = setup.dresspacks[d].routing;
+    if (routing.base_clamp && !routing.retraction) see(*routing.base_clamp, "base_clamp", 1);
     for (std::size_t k = 0; k < routing.clamps.size(); ++k)
-      for (const double sense : {-1, 1}) see(routing.clamps[k].clamp, fmt::format("routing.clamps.{}", k + 1), sense);
-    if (routing.tool_clamp) see(*routing.tool_clamp, "routing.tool_clamp", -1);
+      for (const double sense : {-1, 1}) see(routing.clamps[k].clamp, fmt::format("clamps.{}", k + 1), sense);
+    if (routing.tool_clamp) see(*routing.tool_clamp, "tool_clamp", -1);
+  }
+  return all;
+}
+
+std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup) {
+  if (setup.robot.links.empty() || !setup.simulation.contact) return {};
+  std::vector<pipeline::Warning> warnings;
+  for (const WayOut& way : ways_out(setup, Surfaces(setup))) {
+    const pipeline::Dresspack& dresspack = setup.dresspacks[way.dresspack].dresspack;
+    const double radius = limits_of(dresspack).least_bend_radius;
+    if (way.curvature * radius <= 1) continue;
+    const double depth = way.curvature * dresspack.diameter * dresspack.diameter / 2;
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::bend_radius, way.clamp->where.text(),
+        fmt::format(
+            "straight on from {}, the dresspack is {:.1f} mm inside {} at one diameter from the clamp: it comes out "
+            "with a bend radius of {:.1f} mm or less (limit {:.1f} mm), also where the segments are too long to show it",
+            way.key, 1e3 * depth, way.clamp->link, 1e3 / way.curvature, 1e3 * radius),
+        "the clamp lies in the surface of its link, or its direction leads into it",
+        fmt::format("{}.position_m {:.0f} mm farther from the surface, or a direction that leads away from it", way.key,
+                    std::ceil(1e3 * depth))));
   }
   return warnings;
 }
@@ -194,7 +211,8 @@ std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup,
                                                    const std::optional<ToolSpace>& space) {
   std::vector<pipeline::Warning> warnings;
   if (!space) return warnings;
-  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
+    const pipeline::MountedDresspack& mounted = setup.dresspacks[d];
     const std::optional<pipeline::Clamp>& clamp = mounted.routing.tool_clamp;
     if (!clamp || clamp->link != space->link) continue;
     const double diameter = mounted.dresspack.diameter, off = off_flange_axis(setup.robot, clamp->position, diameter);
@@ -202,10 +220,10 @@ std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup,
     if (off >= adapter_radius(diameter) || beyond_tool) continue;
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::overlap, clamp->where.text(),
-        fmt::format(
-            "routing.tool_clamp.position_m is {:.0f} mm beside the axis of the flange (limit {:.0f} mm): there the adapter of "
-            "the tool is, and no clamp can be built",
-            1e3 * off, 1e3 * adapter_radius(diameter)),
+        fmt::format("{} is {:.0f} mm beside the axis of the flange (limit {:.0f} mm): there the adapter of "
+                    "the tool is, and no clamp can be built",
+                    pipeline::line_key(setup, d, "routing.tool_clamp.position_m"), 1e3 * off,
+                    1e3 * adapter_radius(diameter)),
         "a place inside the tool, whose shape the job does not have",
         fmt::format(
             "a place beside the tool; {}: {} gives {} its shape (sizes: those of your tool), which dresslife route "

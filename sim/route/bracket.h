@@ -33,7 +33,7 @@ class Surfaces {
   explicit Surfaces(const pipeline::Setup& setup);
   ~Surfaces();
 
-  /// Returns the distance from a point in the link's frame to its surface [m], below 0 inside a capsule or box; at most `most`.
+  /// Returns the distance from a point in the link's frame to its surface [m], below 0 inside a capsule, a box or a closed mesh; at most `most`.
   double of_link(int link, const Vector3& point, double most) const;
   double of_cell(const Vector3& point, double most) const;
   bool has_shapes(int link) const;
@@ -71,8 +71,19 @@ std::vector<pipeline::Warning> clamp_warnings(const pipeline::Setup& setup, cons
 std::string tool_space_note(const std::optional<ToolSpace>& space);
 
 /// Returns the curvature of the way out of the clamp's link (V8) [1/m]; 0: it is outside. out: direction of the dresspack away from
-/// the clamp. Meshes count up to their surface only.
+/// the clamp.
 double way_out(const Surfaces& surfaces, int link, const Vector3& position, const Vector3& out, double diameter);
+
+/// The way of a dresspack out of the link of a clamp. An intermediate clamp has two.
+struct WayOut {
+  std::size_t dresspack = 0;
+  const pipeline::Clamp* clamp = nullptr;
+  std::string key;       ///< "routing.base_clamp"
+  double curvature = 0;  ///< as way_out()
+};
+
+/// Returns the ways out of all links with shapes; empty without contact.
+std::vector<WayOut> ways_out(const pipeline::Setup& setup, const Surfaces& surfaces);
 
 /// Warns of clamps whose dresspack cannot come out of the clamp's link within its bend radius, whatever the mesh. Without contact: none.
 std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup);

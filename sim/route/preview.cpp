@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/job/line_key.h"
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
 #include "sim/route/bracket.h"
@@ -45,17 +46,18 @@ pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
   if (!found) return {};
   const pipeline::Routing& now = setup.dresspacks.front().routing;
   pipeline::Remedy remedy;
+  const auto key_of = [&](const std::string& key) { return pipeline::line_key(setup, 0, "routing." + key); };
   const auto add_clamp = [&](const std::string& key, const pipeline::Clamp& from, const pipeline::Clamp& to) {
     const auto text = [](const Vector3& v, int digits) {
       return fmt::format("[{:.{}f}, {:.{}f}, {:.{}f}]", v.x(), digits, v.y(), digits, v.z(), digits);
     };
-    if (from.position != to.position) remedy.values.push_back({key + ".position_m", text(to.position, 3)});
-    if (from.direction != to.direction) remedy.values.push_back({key + ".direction", text(to.direction, 2)});
+    if (from.position != to.position) remedy.values.push_back({key_of(key + ".position_m"), text(to.position, 3)});
+    if (from.direction != to.direction) remedy.values.push_back({key_of(key + ".direction"), text(to.direction, 2)});
   };
-  add_clamp("routing.base_clamp", *now.base_clamp, *found->base_clamp);
-  add_clamp("routing.tool_clamp", *now.tool_clamp, *found->tool_clamp);
+  add_clamp("base_clamp", *now.base_clamp, *found->base_clamp);
+  add_clamp("tool_clamp", *now.tool_clamp, *found->tool_clamp);
   if (now.free_length != found->free_length)
-    remedy.values.push_back({"routing.free_length_m", fmt::format("{:.3f}", found->free_length)});
+    remedy.values.push_back({key_of("free_length_m"), fmt::format("{:.3f}", found->free_length)});
   const double base = (found->base_clamp->position - now.base_clamp->position).norm(),
                tool = (found->tool_clamp->position - now.tool_clamp->position).norm();
   const std::string places =

@@ -185,7 +185,6 @@ struct Screener::Parts {
   void see(const pipeline::Setup& setup, const Thread& thread, Screening& screening) const;
   double depth(const pipeline::Setup& setup, const Thread& thread, const Moment& moment,
                const std::vector<Vector3>& points) const;
-  void see_brackets(const pipeline::Setup& setup, Screening& screening) const;
 };
 
 Screener::Screener(const pipeline::Setup& setup, bool brackets) : parts_(std::make_unique<Parts>()) {
@@ -342,34 +341,23 @@ void Screener::Parts::see(const pipeline::Setup& setup, const Thread& thread, Sc
   }
 }
 
-/// Evaluates (V7) for all clamps and rings.
-void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& screening) const {
-  if (!surfaces) return;
-  constexpr auto limit = static_cast<std::size_t>(ScreenedLimit::bracket);
-  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
-    const double diameter = mounted.dresspack.diameter;
+std::vector<BracketBeyond> Screener::brackets(const pipeline::Setup& setup) const {
+  std::vector<BracketBeyond> all;
+  if (!parts_->surfaces) return all;
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
+    const pipeline::Routing& routing = setup.dresspacks[d].routing;
+    const double diameter = setup.dresspacks[d].dresspack.diameter;
     const auto see = [&](const auto& place, double radius) {
       const BracketPlace on_link{find_link(setup.robot, place.link, place.where), place.position, radius};
-      const BracketFit fit = fit_of(on_link, robot, *surfaces, carriers);
-      const double g = fit.beyond(longest_bracket_of(mounted.routing), diameter);
-      if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
+      const BracketFit fit = bracket(on_link);
+      all.push_back({d, on_link, fit.beyond(longest_bracket_of(routing), diameter), fit.moment});
     };
-    const pipeline::Routing& routing = mounted.routing;
-    const auto see_way_out = [&](const pipeline::Clamp& clamp, double sense) {  // (V8) as (V3)
-      const int link = find_link(setup.robot, clamp.link, clamp.where);
-      const double curvature = way_out(*surfaces, link, clamp.position, sense * clamp.direction, diameter);
-      constexpr double straight = 1e-6;  // [1/m]: its logarithm is finite
-      const double g = std::log(limits_of(mounted.dresspack).least_bend_radius * std::max(curvature, straight));
-      double& bend = screening.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
-      bend = std::max(bend, g);
-    };
-    if (routing.base_clamp && !routing.retraction) see_way_out(*routing.base_clamp, 1);
-    if (routing.tool_clamp) see_way_out(*routing.tool_clamp, -1);
     for (const auto& clamp : {routing.base_clamp, routing.tool_clamp})
       if (clamp) see(*clamp, diameter / 2);
     for (const pipeline::IntermediateClamp& between : routing.clamps) see(between.clamp, diameter / 2);
     for (const pipeline::GuideRing& ring : routing.rings) see(ring, ring.radius);
   }
+  return all;
 }
 
 BracketFit Screener::bracket(const BracketPlace& place) const {
@@ -377,11 +365,27 @@ BracketFit Screener::bracket(const BracketPlace& place) const {
 }
 double Screener::time_of(std::size_t moment) const { return parts_->moments[moment].time; }
 
-Screening Screener::screen(const pipeline::Setup& setup) const {
+Screening Screener::screen(const pipeline::Setup& setup, std::span<const BracketBeyond> built) const {
+  constexpr double same_place = 1e-3;  // [m]: no mounting is more exact
+  constexpr double straight = 1e-6;    // [1/m]: its logarithm is finite
   Screening screening;
   screening.beyond.fill(unasked);
   screening.time.fill(0);
-  parts_->see_brackets(setup, screening);
+  for (const BracketBeyond& of : brackets(setup)) {
+    const auto own = std::ranges::find_if(built, [&](const BracketBeyond& other) {
+      return other.dresspack == of.dresspack && other.place.link == of.place.link &&
+             (other.place.position - of.place.position).norm() < same_place;
+    });
+    const double g = of.beyond - (own == built.end() ? 0 : std::max(0.0, own->beyond));
+    constexpr auto limit = static_cast<std::size_t>(ScreenedLimit::bracket);
+    if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = time_of(of.moment);
+  }
+  if (parts_->surfaces)
+    for (const WayOut& of : ways_out(setup, *parts_->surfaces)) {  // (V8)
+      const double radius = limits_of(setup.dresspacks[of.dresspack].dresspack).least_bend_radius;
+      double& bend = screening.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
+      bend = std::max(bend, std::log(radius * std::max(of.curvature, straight)));
+    }
   const Rod rod = rod_of(setup);
   for (const Thread& thread : parts_->threads(setup, rod)) parts_->see(setup, thread, screening);
   return screening;

@@ -11,6 +11,7 @@
 //                                                  d: diameter
 // (V6) tension     g = ln(F/F_limit)               F: largest tension, which only a run gives (short_run.h)
 // (V7) bracket     bracket.h: whether brackets can carry the clamps and rings, at all moments of the program
+// (V8) way out     bracket.h: from the link of a clamp, as (V3)
 //
 // Phi counts full turns: the direction is transported from clamp to chord to clamp at every moment of the
 // program and followed without jumps; in the drawn poses the transport along the curve itself is used instead.
@@ -19,6 +20,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -54,16 +56,28 @@ struct Screening {
   bool rejected() const;  ///< some limit is certainly exceeded
 };
 
+/// (V7) of one clamp or ring.
+struct BracketBeyond {
+  std::size_t dresspack = 0;
+  BracketPlace place;
+  double beyond = 0;       ///< g
+  std::size_t moment = 0;  ///< BracketFit::moment
+};
+
 class Screener {
  public:
-  /// Computes the motion and selects the poses that differ most. brackets: whether (V7) is evaluated.
+  /// Computes the motion and selects the poses that differ most. brackets: whether (V7) and (V8) are evaluated.
   /// Errors: InputError, as RobotPath, RecordedPath and Surfaces.
   explicit Screener(const pipeline::Setup& setup, bool brackets = false);
   ~Screener();
 
-  /// Returns the screening of a routing. setup: with the same robot and motion as in the constructor; dresspacks, routings and
-  /// other keys may differ. Errors: InputError for a clamp or ring on a link that the robot does not have.
-  Screening screen(const pipeline::Setup& setup) const;
+  /// Returns the screening of a routing. setup: with the same robot, motion and cell as in the constructor; dresspacks, routings
+  /// and other keys may differ. built: brackets whose own violation of (V7) is allowed, as long as the clamp or ring is less than
+  /// a millimetre from its place. Errors: InputError for a clamp or ring on a link that the robot does not have.
+  Screening screen(const pipeline::Setup& setup, std::span<const BracketBeyond> built = {}) const;
+
+  /// Returns (V7) of all clamps and rings; empty without a robot or `brackets`. Errors: as screen().
+  std::vector<BracketBeyond> brackets(const pipeline::Setup& setup) const;
 
   /// Returns (V3) with the hose at rest under its weight in some of the poses (equilibrium.h), without twist; five
   /// times as slow. Large if no equilibrium is found.

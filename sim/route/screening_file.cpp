@@ -74,42 +74,36 @@ class Writer {
 
 constexpr auto bracket = static_cast<std::size_t>(ScreenedLimit::bracket);
 
-/// Keeps the screeners as long as robot and motion are the same.
+/// Keeps the screener as long as robot, motion, cell and mounting poses are the same.
 class Bench {
  public:
-  /// Makes the value of this job the limit of (V7), if the job exceeds (V7).
+  /// Allows the brackets of this job that exceed (V7), as long as they keep their places.
   void accept_brackets_of(const pipeline::Setup& setup, const Node& document) {
     try {
-      accepted_ = std::max(0.0, screen(setup, document).beyond[bracket]);
-    } catch (const InputError&) {
-      accepted_ = 0;  // the motion of the job cannot be computed; the candidates contain the reason
+      built_ = screener_of(setup, document).brackets(setup);
+    } catch (const InputError&) {  // the motion of the job cannot be computed; the candidates contain the reason
     }
   }
 
   Screening screen(const pipeline::Setup& setup, const Node& document) {
-    const std::string key = text_of(document, "robot") + text_of(document, "motion") + poses_of(setup);
+    return screener_of(setup, document).screen(setup, built_);
+  }
+
+ private:
+  const Screener& screener_of(const pipeline::Setup& setup, const Node& document) {
+    std::string key;
+    for (const char* part : {"robot", "motion", "cell"})
+      if (const Node* node = document.find(part)) key += pipeline::to_yaml(*node) + '\n';
+    for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
+      for (const double angle : mounted.routing.mounting_pose) key += fmt::format("{} ", angle);
     if (!screener_ || key != key_) {
       screener_.emplace(setup, true);
       key_ = key;
     }
-    Screening screening = screener_->screen(setup);
-    screening.beyond[bracket] -= accepted_;
-    return screening;
+    return *screener_;
   }
 
- private:
-  static std::string text_of(const Node& document, const char* key) {
-    const Node* part = document.find(key);
-    return part ? pipeline::to_yaml(*part) : "";
-  }
-  static std::string poses_of(const pipeline::Setup& setup) {
-    std::string text;
-    for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
-      for (const double angle : mounted.routing.mounting_pose) text += fmt::format("{} ", angle);
-    return text;
-  }
-
-  double accepted_ = 0;
+  std::vector<BracketBeyond> built_;
   std::optional<Screener> screener_;
   std::string key_;
 };

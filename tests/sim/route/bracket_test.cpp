@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -75,8 +76,34 @@ TEST_CASE(
   CHECK(way_out_warnings(job).empty());
   job.dresspacks[0].routing.tool_clamp->direction = {0, 0, 1};  // through the tool
   CHECK(way_out_warnings(job).size() == 1);
+  // An intermediate clamp across the surface leads into it at one side, and its key is that of a list of dresspacks.
+  job.dresspacks[0].name = "hose";
+  job.dresspacks[0].routing.clamps = {{{"bench", {0.5, 0, 0.15}, {0, 0, 1}, {}, {}}, 0.5}};
+  REQUIRE(way_out_warnings(job).size() == 2);
+  CHECK_THAT(way_out_warnings(job)[0].words, Catch::Contains("dresspacks.1.routing.clamps.1.position_m "));
   job.simulation.contact = false;
   CHECK(way_out_warnings(job).empty());
+}
+
+TEST_CASE("bracket: no clamp is built inside a closed mesh of its own link") {
+  pipeline::Job job = two_links();
+  const pipeline::Scratch scratch;
+  std::string cube = "solid cube\n";  // corners at 0 and 1
+  for (const char* of : {"000 011 010", "000 001 011", "100 110 111", "100 111 101", "000 100 101", "000 101 001",
+                         "010 111 110", "010 011 111", "000 110 100", "000 010 110", "001 101 111", "001 111 011"}) {
+    cube += "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) cube += fmt::format("vertex {} {} {}\n", of[4 * k], of[4 * k + 1], of[4 * k + 2]);
+    cube += "endloop\nendfacet\n";
+  }
+  job.robot.links[0].capsules.clear();
+  job.robot.links[0].meshes = {{scratch.write("cube.stl", cube + "endsolid\n"), 0.4, {-0.2, -0.2, -0.2}, {0, 0, 0}}};
+  const Surfaces surfaces(job);
+  CHECK(surfaces.of_link(0, {0, 0, 0}, 1) == Approx(-0.2));  // also on the diagonals of the faces
+  CHECK(surfaces.of_link(0, {0.1, 0.02, -0.15}, 1) == Approx(-0.05));
+  CHECK(surfaces.of_link(0, {0.1, 0.02, -0.25}, 1) == Approx(0.05));
+  CHECK(surfaces.of_link(0, {0.3, 0, 0}, 1) == Approx(0.1));
+  const std::vector<std::vector<Frame>> poses{{at(0, 0, 0), at(5, 0, 0)}};
+  CHECK(fit_of({0, {0, 0, 0.1}, 0.02}, job.robot, surfaces, poses).beyond(1, 0.04) == Approx(0.1 / 0.04));
 }
 
 TEST_CASE("bracket: clearance is the least over the motion, and names link and moment") {

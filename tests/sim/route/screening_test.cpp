@@ -6,12 +6,16 @@
 #include <numbers>
 
 #include "pipeline/base/installation.h"
+#include "pipeline/files/files.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/robot/robot.h"
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
+#include "sim/route/screening_file.h"
+#include "sim/run/checks.h"
 #include "sim/run/clamp_path.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -113,6 +117,64 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
   CHECK(g(0.3) < 0);
 }
 
+TEST_CASE("each screened candidate has its own cell, and an existing bracket is accepted in its place only (V7)") {
+  const pipeline::Scratch scratch;
+  const auto brackets_of = [&](const std::vector<std::string>& sets, const std::string& candidates) {
+    {
+      pipeline::FileWriter file(scratch / "s.h5", pipeline::screening_format());
+      write_screening(shipped_job(sets), scratch.write("list.yaml", candidates), false, file);
+      for (const char* name : {"job", "history", "input_sha256"}) file.attribute(name, "");
+      file.commit();
+    }
+    const pipeline::FileReader file(scratch / "s.h5", pipeline::screening_format());
+    for (const std::string& refusal : file.read<std::string>("/candidate/refusal")) CHECK(refusal == "");
+    const auto beyond = file.read<double>("/candidate/beyond");
+    std::vector<double> brackets;
+    for (std::size_t k = static_cast<std::size_t>(ScreenedLimit::bracket); k < beyond.size(); k += screened_limits)
+      brackets.push_back(beyond[k]);
+    return brackets;
+  };
+  const std::vector<double> cells =
+      brackets_of({"cell={boxes: [{position_m: [5, 0, 1], sides_m: [0.4, 0.4, 0.4]}]}"},
+                  "- {}\n- {cell.boxes.1.position_m: [1.8, 0, 1.5], cell.boxes.1.sides_m: [2, 2, 2]}\n- {}\n");
+  REQUIRE(cells.size() == 3);
+  CHECK(cells[0] < 0);
+  CHECK(cells[1] > 1);  // the clamps are inside the block
+  CHECK(cells[2] == cells[0]);
+
+  const std::vector<double> places = brackets_of({"routing.base_clamp.position_m=[-0.1, 0, 0.95]"},
+                                                 "- {}\n"
+                                                 "- {routing.base_clamp.position_m: [-0.1, 0, 0.949]}\n"
+                                                 "- {routing.base_clamp.position_m: [-0.1, 0, 0.9499]}\n"
+                                                 "- {routing.tool_clamp.position_m: [0.144, 0, 0.674]}\n"
+                                                 "- {routing.base_clamp.position_m: [-0.1, 0, 0.45]}\n");
+  REQUIRE(places.size() == 5);
+  CHECK(places[0] == Approx(0).margin(1e-12));
+  CHECK(places[1] > 1);   // 1 mm from the existing bracket: a new one, more than 0.3 m too long
+  CHECK(places[2] <= 0);  // as near as no mounting is exact
+  CHECK(places[3] > 1);
+  CHECK(places[4] < 0);
+}
+
+TEST_CASE("the way out of a clamp's link is a limit of the bend at all clamps, if there is contact (V8)") {
+  pipeline::Job job = simple_job();
+  const auto bend = [&] {
+    return Screener(job, true).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
+  };
+  // The hose is nearly straight, and its clamp 10 mm above the surface of a capsule at one of its sides.
+  routing(job).free_length = 0.92;
+  routing(job).clamps = {{{"bench", {0.5, 0, 1}, {1, 0, 0}, {}, {}}, 0.51}};
+  const double d = job.dresspacks.front().dresspack.diameter;
+  const double limit = std::log(limits_of(job.dresspacks.front().dresspack).least_bend_radius * (d - 0.02) / (d * d));
+  for (const double side : {-1, 1}) {
+    job.robot.links[0].capsules = {{{0.5 + 0.02 * side, 0, 0.89}, {0.5 + 0.2 * side, 0, 0.89}, 0.1}};
+    job.simulation.contact = true;
+    CHECK(bend() == Approx(limit));
+    job.simulation.contact = false;
+    CHECK(bend() < limit - 0.1);
+  }
+}
+
 TEST_CASE("proposed clamps have a bracket within the limit, and a link without such a place is refused at once") {
   pipeline::Job job = shipped_job();
   ProposalSettings settings;
@@ -133,11 +195,19 @@ TEST_CASE("proposals that geometry surely excludes have no short run") {
   pipeline::Job job = shipped_job();
   job.dresspacks.front().dresspack.least_bend_radius = 20;  // [m]
   ProposalSettings settings;
-  settings.tried = 120;
+  settings.tried = 100;  // twelve searches of at least ten
   settings.short_runs = 1000;
   const Proposal nearest = propose(job, settings).front();
   CHECK(nearest.short_run.refusal.find("geometry excludes all 120 routings") == 0);
   CHECK(nearest.short_run.refusal.find("bent too tightly by ") != std::string::npos);
+}
+
+TEST_CASE("short runs give as many proposals as wanted") {
+  ProposalSettings settings;
+  settings.count = 7;
+  settings.tried = 1;
+  settings.short_runs = 24;  // a hopeless search ends after a third of them
+  CHECK(propose(shipped_job({"motion=easy", "simulation.segments=16"}), settings).size() == 7);
 }
 
 TEST_CASE("proposals keep what the screening asks and are the same for the same seed") {
