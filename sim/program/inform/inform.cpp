@@ -18,8 +18,11 @@ namespace {
 /// Default position levels PL=0 .. 8 of the controllers (SC.PRM, S1CxG033 .. 040) [m].
 constexpr double position_levels[] = {0, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};
 
-/// Returns the unit of a variable as a speed or a time: 0.1 mm/s for V=I000, 0.01 % for VJ=I000, 0.01 s for T=I000.
-double unit_of_variable(const std::string& tag) { return tag == "v" || tag == "vr" ? 0.1 : 0.01; }
+/// Returns the unit of a variable behind a tag. A variable is an integer in the last digit that the tag shows: 0.1 mm/s for
+/// V=I000, 0.1 mm for CR=I000, 0.01 % for VJ=I000, 0.01 s for T=I000, 1 for PL=B000 and ACC=I000.
+double unit_of_variable(const std::string& tag) {
+  return tag == "v" || tag == "vr" || tag == "cr" ? 0.1 : tag == "vj" || tag == "t" ? 0.01 : 1;
+}
 
 /// A position value of the tree (add_inform_types).
 struct Position {
@@ -166,8 +169,15 @@ class Inform final : public Dialect {
     for (const Expression& argument : statement.arguments) {
       if (argument.option != option) continue;
       const auto number = needed(argument, option);
-      return number && argument.kind != Expression::Kind::number ? std::optional(*number * unit_of_variable(option))
-                                                                 : number;
+      if (!number || argument.kind == Expression::Kind::number) return number;
+      const std::string_view name = option;
+      if (name == "cr" || name == "acc" || name == "dec")
+        run_->note(statement.place,
+                   fmt::format("{}: a variable as {} is read in units of {} without a source; write the number into a "
+                               "copy of the job if this is wrong",
+                               statement.text, upper_case(option), name == "cr" ? "0.1 mm" : "1 %"),
+                   true);
+      return *number * unit_of_variable(option);
     }
     return {};
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "pipeline/base/text.h"
@@ -407,8 +408,9 @@ class InformParser {
   }
 
   /// Returns the labels of the job that are numbers -> their lines.
-  std::map<std::string, int> numbered_labels() const {
-    std::map<std::string, int> labels;
+  const std::map<std::string, int>& numbered_labels() {
+    if (labels_) return *labels_;
+    std::map<std::string, int>& labels = labels_.emplace();
     for (std::size_t line = 0; line < lines_.size(); ++line) {
       Words at(lines_[line], file_, static_cast<int>(line) + 1);
       if (!at.take_sign("*")) continue;
@@ -432,6 +434,12 @@ class InformParser {
       to_it.name = label;
       made.branches.push_back({std::move(conditions), {std::move(to_it)}, s.place});
     };
+    constexpr std::size_t most = 20'000;  // ways of all these jumps together, each a kB of memory
+    ways_ += numbered_labels().size();
+    if (ways_ > most) {
+      labels_->clear(), ways_ = 0;  // one problem for all further jumps
+      at.fail(fmt::format("makes more than {} ways of JUMP LABEL: to labels of the job", most));
+    }
     for (const auto& [label, line] : numbered_labels()) {
       Expression number = Words(label, file_, s.place.line).operand();
       number.place = {file_, line, 2};  // column after the *
@@ -754,6 +762,8 @@ class InformParser {
   Problems& problems_;
   std::vector<std::string_view> lines_;
   std::size_t at_ = 0;
+  std::optional<std::map<std::string, int>> labels_;  // see numbered_labels()
+  std::size_t ways_ = 0;                              // of JUMP LABEL:
 };
 
 }  // namespace

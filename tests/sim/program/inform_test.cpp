@@ -124,6 +124,15 @@ TEST_CASE("inform: speeds, accelerations and position levels") {
   CHECK(skips(r, "note: V= counts mm/s", false));
   CHECK(run(three, "MOVL C00000\n").problem().find("has no V=, and no SPEED before it") != std::string::npos);
   CHECK(run(three, "MOVL C00000\n", given({{"v", "250"}})).move(0).speed.tool.value() == Approx(0.25));
+  // A position level counts levels; the ranges CR=1.0 .. 6553.5 and ACC=20 .. 100 give the other units.
+  const Reading variables = run(
+      three, "SET B000 3\nSET I000 250\nSET I001 60\nMOVL C00000 V=9.0 PL=B000\nMOVL C00001 V=9.0 CR=I000 ACC=I001\n");
+  REQUIRE(variables.problem() == "no such problem");
+  CHECK(variables.move(0).zone.distance == 0.05);
+  CHECK(variables.move(1).zone.distance == Approx(0.025));
+  CHECK(variables.move(1).acceleration_percent == 60);
+  CHECK(skips(variables, "a variable as CR is read in units of 0.1 mm", true));
+  CHECK(!skips(variables, "a variable as PL", true));
   CHECK(run(three, "MOVL C00000 V=100.0 PL=9\n").problem().find("has PL=9 (0 .. 8)") != std::string::npos);
 }
 
@@ -404,4 +413,12 @@ TEST_CASE("inform: GETE reads a number of a position in counts of SETE") {
   CHECK(run(taught, "GETE D001 P009 (3)\nJUMP *END IF D001=1\nMOVJ C00000 VJ=9\n*END\n")
             .problem()
             .find("may be written by gete") != std::string::npos);
+}
+
+TEST_CASE("inform: jumps to a label by number have a limit of their ways") {
+  std::string lines;
+  for (int k = 0; k < 200; ++k) lines += fmt::format("*{}\nJUMP LABEL: B000\n", k);
+  const Reading r = run(three, "JUMP *END\n" + lines + "*END\nMOVJ C00000 VJ=9\n");
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problem().find("more than 20000 ways") != std::string::npos);
 }
