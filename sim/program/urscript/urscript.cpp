@@ -154,10 +154,12 @@ class Script final : public Dialect {
   /// Returns the result of get_inverse_kin as a record of pose and nearby angles, because the robot is not known here.
   Value inverse_kinematics(const Expression& call, const std::vector<Value>& values) {
     Value near = values.size() > 1 ? values[1] : list_value({});
+    bool another_tool = values.size() > 4;  // x, qnear, two tolerances, tcp
     for (const Expression& argument : call.items) {
       if (argument.option == "qnear") near = run_->evaluate(argument);
-      if (argument.option == "tcp") return unknown_value("", "is the inverse kinematics of another tool");
+      another_tool |= argument.option == "tcp";
     }
+    if (another_tool) return unknown_value("", "is the inverse kinematics of another tool");
     if (values.empty() || !values[0].known()) return values.empty() ? Value{} : unknown_value(values[0]);
     return near.known() ? list_value({values[0], near}, record("inverse")) : unknown_value(near);
   }

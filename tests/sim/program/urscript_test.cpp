@@ -82,6 +82,10 @@ TEST_CASE("urscript: what PolyScope writes: waypoints with the joint angles that
   CHECK(r.move(0).target.configuration.text() == "near 114 -95 111 -15 76 0");
   CHECK(arm_configuration("near 114 -95 111 -15 76 0").value() == r.move(0).target.configuration);
   CHECK(skips(r, "an endless loop", false));
+  for (const char* tool : {"[0,0,0,0,0,0],1e-10,1e-10,p[0,0,0.4,0,0,0]", "[0,0,0,0,0,0],tcp=p[0,0,0.4,0,0,0]"})
+    CHECK(program(fmt::format("movej(get_inverse_kin(p[.4,.1,.5,0,3.14,0],{}))\n", tool))
+              .problem()
+              .find("the inverse kinematics of another tool") != std::string::npos);
 }
 
 TEST_CASE("urscript: poses are composed as the manual says") {
