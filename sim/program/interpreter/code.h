@@ -36,7 +36,9 @@ struct Expression {
   std::vector<Expression> items;
   std::vector<std::string> keys;  ///< lower case
   std::string option;             ///< name of an argument given by name (\WObj:=...); lower case
-  bool if_present = false;        ///< argument \name?value: given only if the routine got the argument `value`
+  bool in_parentheses = false;
+  bool mixes_levels = false;  ///< KRL: comparisons and logical operators without parentheses (Interpreter::mixed)
+  bool if_present = false;    ///< argument \name?value: given only if the routine got the argument `value`
   Place place;
   int depth = 1;  ///< levels of items
 };

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <utility>
 
 #include "sim/program/interpreter/interpreter.h"
 #include "sim/program/interpreter/job_words.h"
+#include "sim/program/interpreter/parser.h"
 #include "sim/program/interpreter/request.h"
 
 namespace dresslife::sim {
@@ -815,10 +818,69 @@ Value as_number(const Value& value, const Value& other) {
 
 }  // namespace
 
+/// Returns the value of a KRL expression that mixes comparisons with AND, EXOR or OR without parentheses. KUKA's manual
+/// compares after them: a == b AND c is a == (b AND c). Programs also rely on the order of other languages, (a == b) AND c.
+/// If both orders are possible and their values differ, the value is unknown.
+Value Interpreter::mixed(const Expression& expression) {
+  std::vector<Value> operands;
+  std::vector<const Expression*> operators;
+  const int comparisons = precedence_of("==");
+  const std::function<void(const Expression&)> take = [&](const Expression& e) {
+    const bool is_part = e.kind == Form::binary && (&e == &expression || !e.in_parentheses);
+    if (!is_part || precedence_of(e.text) > comparisons) return operands.push_back(evaluate(e));
+    take(e.items[0]);
+    operators.push_back(&e);
+    take(e.items[1]);
+  };
+  take(expression);
+  struct Part {
+    Value value;
+    bool truth;  // TRUE, FALSE or one of them
+  };
+  int compared_at = comparisons;  // precedence of comparisons
+  // Returns the value of operands first .. last; std::nullopt: an operator does not accept the kinds of its operands.
+  const std::function<std::optional<Part>(std::size_t, std::size_t)> read =
+      [&](std::size_t first, std::size_t last) -> std::optional<Part> {
+    if (first == last) return Part{operands[first], operands[first].kind == Value::Kind::truth};
+    const auto level = [&](std::size_t k) {
+      const int usual = precedence_of(operators[k]->text);
+      return usual == comparisons ? compared_at : usual;
+    };
+    std::size_t split = first;  // the last one of the lowest precedence
+    for (std::size_t k = first; k < last; ++k)
+      if (level(k) <= level(split)) split = k;
+    const auto a = read(first, split), b = read(split + 1, last);
+    if (!a || !b) return {};
+    const std::string& op = operators[split]->text;
+    const bool bits = op.starts_with("b_"), compares = precedence_of(op) == comparisons;
+    const auto fits = [&](const Part& part) {
+      return part.truth ? !bits : part.value.kind == Value::Kind::unknown || (bits && part.value.is_number());
+    };
+    if ((!compares || a->truth || b->truth) && !(fits(*a) && fits(*b))) return {};
+    Part made{applied(op, a->value, b->value, operators[split]->place), !bits};
+    if (a->value.known() && b->value.known() && !made.value.known()) return {};
+    return made;
+  };
+  const std::optional<Part> usual = read(0, operators.size());
+  compared_at = 0;
+  const std::optional<Part> manual = read(0, operators.size());
+  if (!usual || !manual) return usual ? usual->value : manual ? manual->value : Value{};
+  if (!usual->value.known() || usual->value == manual->value) return usual->value;
+  if (!manual->value.known()) return manual->value;
+  return unknown_value(
+      "", fmt::format("is {} with comparisons after AND, EXOR and OR (KUKA's manual), and {} with "
+                      "comparisons first; parentheses in a copy of the program decide",
+                      manual->value.number != 0 ? "TRUE" : "FALSE", usual->value.number != 0 ? "TRUE" : "FALSE"));
+}
+
 Value Interpreter::binary(const Expression& expression) {
-  const std::string& op = expression.text;
-  if (op == ":") return dialect_.function(expression).value_or(Value{});
-  Value a = evaluate(expression.items[0]), b = evaluate(expression.items[1]);
+  if (expression.text == ":") return dialect_.function(expression).value_or(Value{});
+  if (expression.mixes_levels) return mixed(expression);
+  const Value first = evaluate(expression.items[0]);
+  return applied(expression.text, first, evaluate(expression.items[1]), expression.place);
+}
+
+Value Interpreter::applied(const std::string& op, Value a, Value b, const Place& place) {
   const auto round = [&](Value& value, double (*rounded)(double)) {
     if (dialect_.has_single_precision() && value.is_number()) value.number = rounded(value.number);
   };
@@ -847,7 +909,7 @@ Value Interpreter::binary(const Expression& expression) {
   if (op == "xor" || op == "exor") return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};
   if (a.kind == Value::Kind::text && op == "+") return text_value((a.text + b.text).substr(0, text_length));
   if (b.is_number() && b.number == 0 && (op == "/" || op == "div" || op == "mod")) {
-    complain(expression.place, "divides by zero", "correct the line (the controller stops here)");
+    complain(place, "divides by zero", "correct the line (the controller stops here)");
     return {};
   }
   if (const Value relation = compared(op, a, b); relation.known()) return relation;

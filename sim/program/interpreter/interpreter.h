@@ -311,6 +311,8 @@ class Interpreter {
   Value why_unknown(const std::vector<Expression>& expressions);
   Value unary(const Expression& expression);
   Value binary(const Expression& expression);
+  Value mixed(const Expression& expression);
+  Value applied(const std::string& op, Value a, Value b, const Place& place);
   Value aggregate(const Expression& expression);
   void shape_elements(Value& value, const RecordType* type, std::size_t levels) const;
   Value* locate(const Expression& expression);

@@ -7,19 +7,22 @@ namespace {
 
 using Form = Expression::Kind;
 
-constexpr int precedence_of_signs = 6;  // of the unary operators - and +
+constexpr int precedence_of_signs = 7;  // of the unary operators - and +
 
 /// Returns the precedence of a binary operator; 0: the token is not an operator.
 int precedence(const Token& token, Grammar grammar) {
-  static constexpr std::pair<std::string_view, int> table[] = {
-      {"or", 1}, {"xor", 1}, {"exor", 1}, {"b_or", 1}, {"b_exor", 1}, {"and", 2}, {"b_and", 2},
-      {"=", 3},  {"==", 3},  {"<>", 3},   {"<", 3},    {">", 3},      {"<=", 3},  {">=", 3},
-      {"+", 4},  {"-", 4},   {"*", 5},    {"/", 5},    {"div", 5},    {"mod", 5}, {":", 6}};
   if (token.kind != Token::Kind::sign && token.kind != Token::Kind::word) return 0;
-  for (const auto& [name, level] : table)
-    if (same_word(token.text, name)) return level;
-  if (grammar == Grammar::urscript && (token.text == "%" || token.text == "!=")) return token.text == "%" ? 5 : 3;
+  if (const int level = precedence_of(token.text)) return level;
+  if (grammar == Grammar::urscript && (token.text == "%" || token.text == "!="))
+    return precedence_of(token.text == "%" ? "mod" : "<>");
   return 0;
+}
+
+/// Whether the part of an expression outside of its parentheses has an operator of these precedences.
+bool has_operator(const Expression& e, int from, int to) {
+  if (e.kind != Form::binary || e.in_parentheses) return false;
+  const int level = precedence_of(e.text);
+  return (level >= from && level <= to) || has_operator(e.items[0], from, to) || has_operator(e.items[1], from, to);
 }
 
 /// Returns the expression index + 1.
@@ -33,6 +36,16 @@ Expression counted_from_one(Expression index) {
 }
 
 }  // namespace
+
+int precedence_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, int> table[] = {
+      {"or", 1}, {"xor", 1}, {"exor", 2}, {"b_or", 1}, {"b_exor", 2}, {"and", 3}, {"b_and", 3},
+      {"=", 4},  {"==", 4},  {"<>", 4},   {"<", 4},    {">", 4},      {"<=", 4},  {">=", 4},
+      {"+", 5},  {"-", 5},   {"*", 6},    {"/", 6},    {"div", 6},    {"mod", 6}, {":", 7}};
+  for (const auto& [known, level] : table)
+    if (same_word(known, name)) return level;
+  return 0;
+}
 
 struct Cursor::Deeper {
   explicit Deeper(Cursor& cursor) : cursor_(cursor) {
@@ -124,7 +137,12 @@ Expression Cursor::expression(int lowest) {
   Expression left = unary(lowest);
   while (true) {
     const int level = precedence(peek(), grammar_);
-    if (level < lowest || level == 0 || (at_sign(":") && !krl_)) return left;
+    if (level < lowest || level == 0 || (at_sign(":") && !krl_)) {
+      if (krl_ && lowest == 1 && !left.in_parentheses)
+        left.mixes_levels =
+            has_operator(left, 1, precedence_of("and")) && has_operator(left, precedence_of("=="), precedence_of("=="));
+      return left;
+    }
     Expression both = expression_at(place(), Form::binary);
     both.text = lower_case(next().text);
     if (both.text == "%" || both.text == "!=") both.text = both.text == "%" ? "mod" : "<>";
@@ -135,14 +153,15 @@ Expression Cursor::expression(int lowest) {
 }
 
 /// Reads an expression that may begin with a unary operator. RAPID's NOT applies to all operands of AND: NOT a AND b is
-/// NOT (a AND b).
+/// NOT (a AND b), c OR NOT a AND b is c OR NOT (a AND b).
 Expression Cursor::unary(int lowest) {
   const Deeper deeper(*this);
   const bool negation = at_word("not") || at_word("b_not");
   if (!negation && !at_sign("-") && !at_sign("+")) return primary();
   Expression e = expression_at(place(), Form::unary);
   e.text = lower_case(next().text);
-  const int operand = grammar_ == Grammar::rapid && lowest <= 1 ? 2 : 3;
+  const int conjunction = precedence_of("and");
+  const int operand = grammar_ == Grammar::rapid && lowest <= conjunction ? conjunction : precedence_of("==");
   e.items.push_back(negation && !krl_ ? expression(operand) : unary(precedence_of_signs));
   return finished(std::move(e));
 }
@@ -180,6 +199,7 @@ Expression Cursor::primary() {
   }
   if (take_sign("(")) {
     e = expression();
+    e.in_parentheses = true;
     need_sign(")");
     return e;
   }

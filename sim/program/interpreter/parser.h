@@ -1,5 +1,5 @@
 // Common parts of the parsers of RAPID, KRL and URScript: a cursor over tokens, and expressions by precedence climbing:
-//   or, xor < and < comparisons < + - < * / div mod < : (KRL's product of frames)
+//   or, xor < exor < and < comparisons < + - < * / div mod < : (KRL's product of frames)
 // A syntax error throws SyntaxError; the parser of the statement adds a problem and continues after the statement.
 #pragma once
 
@@ -12,6 +12,9 @@ struct SyntaxError {
   Place place;
   std::string what, remedy;
 };
+
+/// Returns the precedence of a binary operator, 1 for the lowest; 0: it is none.
+int precedence_of(std::string_view name);
 
 enum class Grammar { rapid, krl, urscript };
 

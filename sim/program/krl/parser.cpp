@@ -344,6 +344,8 @@ class KrlParser : StatementParser {
     skip_line();
   }
 
+  const int sums = precedence_of("+");  ///< lowest precedence in a declaration and in FOR, where = is no comparison
+
   void declaration(std::vector<Statement>& into) {
     const std::string type = at_.word("a type");
     do {
@@ -356,7 +358,7 @@ class KrlParser : StatementParser {
           s.arguments.push_back(at_.expression());
         }
       }
-      if (at_.take_sign("=")) s.arguments[0] = at_.expression(4);
+      if (at_.take_sign("=")) s.arguments[0] = at_.expression(sums);
       if (!is_declared_already(s.name)) into.push_back(std::move(s));
     } while (at_.take_sign(","));
     need_line_end();
@@ -373,10 +375,11 @@ class KrlParser : StatementParser {
     s.keeps_counter = true;
     s.name = at_.word("the loop's variable");
     at_.need_sign("=");
-    s.arguments.push_back(at_.expression(4));
+    s.arguments.push_back(at_.expression(sums));
     at_.need_word("to");
-    s.arguments.push_back(at_.expression(4));
-    s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : number_at({}, 1));  // KRL counts up without STEP
+    s.arguments.push_back(at_.expression(sums));
+    s.arguments.push_back(at_.take_word("step") ? at_.expression(sums)
+                                                : number_at({}, 1));  // KRL counts up without STEP
     close_loop(s, body({"endfor"}), "endfor");
   }
 

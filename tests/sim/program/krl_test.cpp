@@ -164,6 +164,33 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
   CHECK(program.instructions.size() == 4);
 }
 
+TEST_CASE("krl: comparisons come after AND, EXOR and OR in the manual, and before them in most programs") {
+  const auto decides = [](const std::string& condition) {
+    return run("INT n\nBOOL no,yes\nn=5\nno=FALSE\nyes=TRUE\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 30,A6 0}\nIF " + condition +
+               " THEN\nPTP {A1 2}\nENDIF");
+  };
+  const auto holds = [&](const std::string& condition) {
+    const Reading r = decides(condition);
+    REQUIRE(r.problem() == "no such problem");
+    return r.program.instructions.size() == 2;
+  };
+  // EXOR binds closer than OR: TRUE OR (FALSE EXOR TRUE). The other order gives FALSE.
+  CHECK(holds("yes OR no EXOR yes"));
+  // One of the orders combines a number with a truth value.
+  CHECK(holds("n == 5 AND yes"));
+  CHECK(!holds("n > 5 OR n == 4 AND yes"));
+  CHECK(holds("n B_AND 4 == 4"));
+  // Both orders have the value: (FALSE == FALSE) AND TRUE, FALSE == (FALSE AND TRUE).
+  CHECK(holds("no == FALSE AND yes"));
+  // (FALSE == TRUE) AND FALSE is FALSE, FALSE == (TRUE AND FALSE) is TRUE.
+  const Reading asked = decides("no == yes AND no");
+  REQUIRE(asked.problems.size() == 1);
+  CHECK(asked.problem().find("is TRUE with comparisons after AND, EXOR and OR (KUKA's manual), and FALSE with "
+                             "comparisons first") != std::string::npos);
+  CHECK(!holds("(no == yes) AND no"));
+  CHECK(holds("no == (yes AND no)"));
+}
+
 TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one pass") {
   const std::string start = "INT i\n$VEL.CP=1\nPTP {X 500,Y 0,Z 500,A 0,B 0,C 0}\n";
   const Reading over = run(start + "GOTO done\nLIN {X 1}\ndone:\nLIN {X 2}");

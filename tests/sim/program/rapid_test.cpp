@@ -58,6 +58,17 @@ TEST_CASE("rapid: a linear move with everything, in SI units") {
   CHECK(move.text == "MoveL p1\\V:=250, v1000, z10\\Z:=15, gun\\WObj:=jig;");
 }
 
+TEST_CASE("rapid: NOT applies to all operands of AND, also after OR") {
+  const auto holds = [](const std::string& condition) {
+    return run("MoveAbsJ home,v100,fine,tool0;\nIF " + condition + " MoveAbsJ home,v200,fine,tool0;", {},
+               "VAR bool f:=FALSE;\n")
+               .program.instructions.size() == 2;
+  };
+  CHECK(holds("NOT f AND f"));
+  CHECK(holds("f OR NOT f AND f"));
+  CHECK(!holds("(NOT f) AND f"));
+}
+
 TEST_CASE("rapid: every kind of move") {
   const Reading r =
       run("MoveAbsJ home\\NoEOffs,v500,fine,tool0;\nMoveJ p1,v100\\T:=2,z50,tool0;\nMoveC "
