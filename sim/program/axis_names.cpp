@@ -73,6 +73,19 @@ std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>&
   return order;
 }
 
+/// Returns the index of T among Yaskawa's axes S, L, U, R, B, T; names.size(): the names are others.
+std::size_t axis_t(const std::vector<std::string>& names) {
+  const auto last_of = [&](const char* axis) {
+    std::size_t found = names.size();
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const auto words = words_of_name(names[k]); !words.empty() && words[0] == axis) found = k;
+    return found;
+  };
+  for (const char* axis : {"s", "l", "u", "r", "b"})
+    if (last_of(axis) == names.size()) return names.size();
+  return last_of("t");
+}
+
 }  // namespace
 
 std::vector<std::string> words_of_name(std::string_view name) {
@@ -89,7 +102,9 @@ std::vector<std::string> words_of_name(std::string_view name) {
   return words;
 }
 
-ColumnName column_name(std::string_view name) {
+namespace {
+
+ColumnName column_name(std::string_view name, bool may_be_time) {
   ColumnName made;
   const std::vector<std::string> words = words_of_name(name);
   const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
@@ -98,7 +113,8 @@ ColumnName column_name(std::string_view name) {
     made.unit = ColumnName::Unit::degrees;
   const bool any_other = std::ranges::any_of(words, [](const auto& w) { return among(w, others); });
   const bool coordinate = std::ranges::any_of(words, [](const auto& w) { return among(w, coordinates); });
-  if (!words.empty() && (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
+  if (may_be_time && !words.empty() &&
+      (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
     made.kind = ColumnName::Kind::time;
     made.unit_told = has("s") || has("sec") || has("secs") || has("seconds");
     if (has("h") || has("hour") || has("hours")) made.seconds = 3600;
@@ -116,6 +132,15 @@ ColumnName column_name(std::string_view name) {
   } else if (coordinate) {
     made.kind = ColumnName::Kind::point;
   }
+  return made;
+}
+
+}  // namespace
+
+std::vector<ColumnName> column_names(const std::vector<std::string>& names) {
+  const std::size_t axis = axis_t(names);
+  std::vector<ColumnName> made;
+  for (std::size_t k = 0; k < names.size(); ++k) made.push_back(column_name(names[k], k != axis));
   return made;
 }
 

@@ -19,7 +19,8 @@ struct ColumnName {
 /// Splits a name into its sequences of letters and of digits, in lower case: "Joint_1 [deg]" -> joint, 1, deg.
 std::vector<std::string> words_of_name(std::string_view name);
 
-ColumnName column_name(std::string_view name);
+/// Returns what the columns of a table are. T is a time, except as the sixth of Yaskawa's axes S, L, U, R, B, T.
+std::vector<ColumnName> column_names(const std::vector<std::string>& names);
 
 /// Returns the unit of a clock's time since 1970 [s]: a time of this century has 10 digits in s, 13 in ms, 16 in us,
 /// 19 in ns. Smaller numbers are seconds since the begin of a recording.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <utility>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/csv_rows.h"
@@ -66,6 +68,16 @@ class Rows {
   std::optional<double> last_time_;
 };
 
+/// Warns of answers of the user other than values of these names.
+void note_unused(const SourceFile& file, const ImportOptions& options, const pipeline::WordSet& names,
+                 Program& program) {
+  const auto note = [&](const std::string& what) { program.skipped.push_back({{file.name(), 1, 1}, what, true}); };
+  for (const auto& [line, assumption] : options.assume) note(unused_assumption(line));
+  for (const auto& [line, chosen] : options.choose) note(unused_assumption(line));
+  for (const auto& [name, value] : options.values)
+    if (!names.contains(name)) note(unused_value(name));
+}
+
 std::string answer(const ImportOptions& options, const char* name) {
   const auto found = options.values.find(name);
   return found == options.values.end() ? "" : found->second;
@@ -112,10 +124,13 @@ class Columns {
     std::vector<std::string> axes;
     std::vector<std::size_t> at;
     bool points = false;
-    for (const auto& [name, line, column] : cells) {
+    std::vector<std::string> titles;
+    for (const auto& cell : cells) titles.emplace_back(cell.text);
+    const std::vector<ColumnName> kinds = column_names(titles);
+    for (const std::string& name : titles) {
       if (number_in_cell(name))
         return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2 and so on");
-      const ColumnName read = column_name(name);
+      const ColumnName& read = kinds[names_.size()];
       if (read.kind == ColumnName::Kind::time && !time_) {
         time_ = names_.size();
         seconds_ = read.seconds;
@@ -243,6 +258,7 @@ class Columns {
 
 void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems) {
   Columns(file, options, program, problems).run();
+  note_unused(file, options, pipeline::word_set("joints unit"), program);
 }
 
 namespace {
@@ -302,25 +318,40 @@ bool read_point(const Node& point, const std::vector<std::size_t>& order, std::s
   return rows.add(std::move(joints), time, point.where, fmt::format("point at {:.6g} s", *time));
 }
 
-/// Reads the documents of a file, separated by "---" as in `ros2 topic echo`. Returns false if one is not valid YAML.
+void shift_lines(Node& node, int lines) {
+  node.where.line += lines;
+  for (Node& item : node.items) shift_lines(item, lines);
+  for (pipeline::Entry& entry : node.entries) {
+    entry.where.line += lines;
+    shift_lines(entry.value, lines);
+  }
+}
+
+constexpr std::size_t most_documents = 100;
+
+/// Reads the first documents of a file, separated by "---" as in `ros2 topic echo`. Returns false if one is not valid YAML.
 bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems& problems) {
   const std::string& text = file.text();
   int lines = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
+  for (std::size_t begin = 0; begin < text.size() && documents.size() < most_documents;) {
     std::size_t end = begin == 0 && text.starts_with("---") ? text.find("\n---", 3) : text.find("\n---", begin);
     end = std::min(end == std::string::npos ? text.size() : end + 1, text.size());
-    const std::string part = std::string(static_cast<std::size_t>(lines), '\n') + text.substr(begin, end - begin);
-    lines += static_cast<int>(
-        std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end), '\n'));
+    const std::string part = text.substr(begin, end - begin);
+    const int before = std::exchange(lines, lines + static_cast<int>(std::ranges::count(part, '\n')));
     begin = end < text.size() ? std::min(text.find('\n', end), text.size()) : end;
-    if (documents.size() > 100 || part.find_first_not_of(" \t\r\n-") == std::string::npos) continue;
+    if (part.find_first_not_of(" \t\r\n-") == std::string::npos) continue;
     try {
       documents.push_back(pipeline::parse_yaml(part, file.name()));
+      shift_lines(documents.back(), before);
     } catch (const pipeline::InputError& error) {
-      // The message begins with the error's place.
+      // The message begins with the error's place: "FILE:LINE:COLUMN: error: ".
       const std::string what = error.what();
       const std::size_t word = what.find(": error: ");
-      problems.add({file.name(), 1, 1}, what.substr(word == std::string::npos ? 0 : word + 9), "");
+      pipeline::Where where{file.name(), 1, 1};
+      if (what.starts_with(file.name()) &&
+          std::sscanf(what.c_str() + file.name().size(), ":%d:%d", &where.line, &where.column) == 2)
+        where.line += before;
+      problems.add(where, what.substr(word == std::string::npos ? 0 : word + 9), "");
       return false;
     }
   }
@@ -348,6 +379,10 @@ const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& d
 }  // namespace
 
 void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems) {
+  if (const std::string unit = answer(options, "unit"); !unit.empty() && unit != "rad")
+    return problems.add({values_of_job({"unit"}, unit)}, "is no unit of a ROS trajectory, whose angles are in rad",
+                        "give the angles in rad, or as columns (.csv)");
+  note_unused(file, options, pipeline::word_set("joints trajectory unit"), program);
   std::vector<Node> documents;
   if (!documents_of(file, documents, problems)) return;
   const Node* trajectory = chosen_trajectory(file, documents, options, problems);

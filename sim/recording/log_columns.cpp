@@ -80,9 +80,10 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   const pipeline::Where where = log.where(cells.front());
   if (std::ranges::all_of(cells, [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); }))
     throw InputError(where, "the log begins with numbers", "put a line of names first: time,axis_1_deg,axis_2_deg, ..");
+  const std::vector<ColumnName> kinds = column_names(titles);
   for (std::size_t k = 0; k < titles.size(); ++k) {
     const std::vector<std::string> words = words_of_name(titles[k]);
-    const ColumnName read = column_name(titles[k]);
+    const ColumnName& read = kinds[k];
     const bool date = words == std::vector<std::string>{"date"} || words == std::vector<std::string>{"datum"};
     if (date && !made.date) made.date = k;
     const auto is_any_of = [](const std::string& word, std::initializer_list<std::string_view> known) {
@@ -111,9 +112,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     made.axes = *order;
   } else {
     for (const auto& [stem, group] : groups) {
-      if (group.first(axes).empty() ||
-          column_name(titles[group.columns.begin()->second]).kind != ColumnName::Kind::axis)
-        continue;
+      if (group.first(axes).empty() || kinds[group.columns.begin()->second].kind != ColumnName::Kind::axis) continue;
       if (best && group.score <= best->score) {
         tie |= group.score == best->score;
         continue;
@@ -132,7 +131,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
       std::vector<std::string> names;
       std::vector<std::size_t> at;
       for (std::size_t k = 0; k < titles.size(); ++k)
-        if (k != made.time && k != made.date && column_name(titles[k]).kind == ColumnName::Kind::axis)
+        if (k != made.time && k != made.date && kinds[k].kind == ColumnName::Kind::axis)
           names.push_back(titles[k]), at.push_back(k);
       const auto order = names.size() == axes ? order_of_axes(names, "") : std::nullopt;
       if (!order) refuse(fmt::format("the log has no {} columns that are the angles of the robot's axes", axes));
@@ -140,7 +139,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     }
   }
   for (const std::size_t k : made.axes) {
-    const ColumnName::Unit unit = column_name(titles[k]).unit;
+    const ColumnName::Unit unit = kinds[k].unit;
     if (unit != ColumnName::Unit::unknown)
       made.radians = unit == ColumnName::Unit::radians ? 1 : std::numbers::pi / 180;
   }

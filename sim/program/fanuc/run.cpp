@@ -52,6 +52,13 @@ void FanucRun::run(const FanucListing& listing, const std::string& arguments) {
   } catch (const Stop&) {
   }
   exploration_.spend(executed_ + values_.charged());
+  const pipeline::Where begin{around_.files[listing.file].name(), 1, 1};
+  const auto note_unused = [&](const std::string& line) {
+    if (!used_lines_.contains(line)) program_.skipped.push_back({begin, unused_assumption(line), true});
+  };
+  for (const auto& [line, assumption] : around_.options.assume) note_unused(line);
+  for (const auto& [line, chosen] : around_.options.choose) note_unused(line);
+  for (const std::string& name : values_.unused()) program_.skipped.push_back({begin, unused_value(name), true});
 }
 
 // ---- words -----------------------------------------------------------------------------------------------
@@ -172,12 +179,14 @@ void FanucRun::charge(long steps) {
   throw Stop{};
 }
 
-std::optional<bool> FanucRun::assumed(int line) const {
+std::optional<bool> FanucRun::assumed(int line) {
   const std::string file = where().file;
   for (const std::string& key :
        {fmt::format("{}:{}", file, line), fmt::format("{}:{}", file_of(file), line), fmt::format("{}", line)})
-    if (const auto found = around_.options.assume.find(key); found != around_.options.assume.end())
+    if (const auto found = around_.options.assume.find(key); found != around_.options.assume.end()) {
+      used_lines_.insert(key);
       return found->second == Assumption::then_branch;
+    }
   return {};
 }
 
@@ -817,6 +826,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
   for (const std::string& key :
        {line_name(), fmt::format("{}:{}", file, where().line), fmt::format("{}", where().line)})
     if (const auto known = around_.options.choose.find(key); known != around_.options.choose.end()) {
+      used_lines_.insert(key);
       FanucCursor at(known->second);  // --assume FILE:LINE=2
       value = at.number();
     }

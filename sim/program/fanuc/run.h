@@ -149,7 +149,7 @@ class FanucRun {
   const FanucStatement& statement() const;
   pipeline::Where where() const;
   std::string line_name() const;  // "cell.ls:12"
-  std::optional<bool> assumed(int line) const;
+  std::optional<bool> assumed(int line);
   std::string program_name() const;
   void complain(const std::string& what, const std::string& remedy);
   bool refuse(const std::string& what, const std::string& remedy);  // complains; returns false
@@ -178,7 +178,8 @@ class FanucRun {
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;
-  pipeline::Where last_jump_;  // last backward jump
+  std::set<std::string> used_lines_;  // keys of the user's assumptions
+  pipeline::Where last_jump_;         // last backward jump
   pipeline::Where last_decision_;
   long executed_ = 0, guessed_at_ = 0;
 };

@@ -104,7 +104,16 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
 
 std::optional<std::string> FanucValues::given(const std::string& name) const {
   const auto found = given_.find(name);
-  return found == given_.end() ? std::nullopt : std::optional(found->second);
+  if (found == given_.end()) return {};
+  used_.insert(name);
+  return found->second;
+}
+
+std::vector<std::string> FanucValues::unused() const {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : given_)
+    if (!used_.contains(name)) names.push_back(name);
+  return names;
 }
 
 std::optional<FanucPosition> FanucValues::given_position(const std::string& name) const {
@@ -196,8 +205,9 @@ bool FanucValues::take_effect(const std::string& call) {
 }
 
 FanucPosition FanucValues::position_register(int number) const {
+  const auto text = given_.empty() ? std::nullopt : given(fmt::format("pr[{}]", number));
   if (const auto found = positions_.find(number); found != positions_.end()) return found->second;
-  if (const auto text = given(fmt::format("pr[{}]", number)))
+  if (text)
     if (const auto position = position_in(*text)) return *position;
   FanucPosition none;
   none.frame = none.tool = -1;
@@ -315,6 +325,7 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
 /// may have changed it, the call is the question. If the program has not set the register, the register is the question.
 FanucNumber FanucValues::register_value(int number) {
   const auto own = registers_.find(number);
+  if (!given_.empty()) given(fmt::format("r[{}]", number));  // marks the user's value as used
   if (own != registers_.end()) read_for(number);
   if (own != registers_.end() && own->second.value) return own->second.value;
   const FanucCauses& causes = own != registers_.end() ? own->second.causes : forgotten_by_;

@@ -67,6 +67,8 @@ class FanucValues {
       const std::string& name) const;  ///< "override", "$prgoverride" [%]; 100 until the program assigns it
   /// Returns the user's value for a plain name (plain_fanuc_name()).
   std::optional<std::string> given(const std::string& name) const;
+  /// Returns the plain names of the user's values that the program has not asked for.
+  std::vector<std::string> unused() const;
   /// Returns the user's value for a name as a position.
   std::optional<FanucPosition> given_position(const std::string& name) const;
 
@@ -113,6 +115,7 @@ class FanucValues {
   std::map<int, FanucPosition> positions_;
   std::map<std::string, FanucNumber> named_;  // no entry: never assigned
   std::map<std::string, std::string> given_;  // key: plain_fanuc_name()
+  mutable std::set<std::string> used_;        // keys of given_
   std::vector<std::vector<Stored>> arguments_;
   std::set<int> taught_;  // position registers of the backup or the user that the program has not written
   bool doubt_ = false;

@@ -54,12 +54,13 @@ void Interpreter::run(const Routine& routine) {
   } catch (const EndOfCycle&) {  // the routine does not start again
   }
   exploration_.spend(executed_);
-  for (const auto& [line, assumption] : options_.assume)
-    if (!used_assumptions_.contains(line))
-      note(routine.place, fmt::format("motion.assume of {}: no branch on that line was to be decided", line), true);
+  const auto note_unused = [&](const std::string& line) {
+    if (!used_assumptions_.contains(line)) note(routine.place, unused_assumption(line), true);
+  };
+  for (const auto& [line, assumption] : options_.assume) note_unused(line);
+  for (const auto& [line, chosen] : code_.choices) note_unused(line);
   for (const auto& [name, expression] : code_.values)
-    if (!used_values_.contains(name))
-      note(expression.place, fmt::format("motion.values of {}: nothing in the program asked for it", name), true);
+    if (!used_values_.contains(name)) note(expression.place, unused_value(name), true);
 }
 
 void Interpreter::start(const Routine& routine) {

@@ -34,4 +34,12 @@ std::string assume_of_job(const std::string& line, const std::string& answers) {
                      answers.substr(end));
 }
 
+std::string unused_value(const std::string& name) {
+  return fmt::format("motion.values of {}: nothing in the program asked for it", name);
+}
+
+std::string unused_assumption(const std::string& line) {
+  return fmt::format("motion.assume of {}: no branch on that line was to be decided", line);
+}
+
 }  // namespace dresslife::sim

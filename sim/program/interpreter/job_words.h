@@ -15,4 +15,8 @@ std::string values_of_job(const std::vector<std::string>& names, const std::stri
 /// Returns "motion.assume: [{line: 'm.mod:5', take: then}] or take: else". answers: the first word, and text about others.
 std::string assume_of_job(const std::string& line, const std::string& answers = then_or_else);
 
+/// Returns the warnings about answers of the user that no line of the program asked for.
+std::string unused_value(const std::string& name);
+std::string unused_assumption(const std::string& line);
+
 }  // namespace dresslife::sim

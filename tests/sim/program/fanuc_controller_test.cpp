@@ -658,8 +658,11 @@ TEST_CASE("fanuc: a position register that is given counts where the program cop
 
 TEST_CASE("fanuc: a word behind a move that no reader knows is named, with the nearest word") {
   const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
+  const auto is_unused_value = [](const std::string& w) { return w.find("asked for it") != std::string::npos; };
   const auto behind = [&](const std::string& words) {
-    return warnings(run("   1:J P[1] 50% " + words + " ;\n   2:  LBL[1] ;\n", known));
+    std::vector<std::string> all = warnings(run("   1:J P[1] 50% " + words + " ;\n   2:  LBL[1] ;\n", known));
+    std::erase_if(all, is_unused_value);
+    return all;
   };
   for (const auto& [words, warned] :
        {std::pair("FINE Ofset,PR[1]", "Ofset: not read, because there is no such word in the options of a move"),
@@ -684,7 +687,7 @@ TEST_CASE("fanuc: a word behind a move that no reader knows is named, with the n
     asked.values["R[1]"] = "50";
     asked.values["CALL SUB"] = "nothing";
     std::vector<std::string> all = warnings(run(std::string("   1:J P[1] 50% ") + words + " ;\n", asked));
-    std::erase_if(all, [](const std::string& w) { return w.starts_with("CALL SUB"); });
+    std::erase_if(all, [&](const std::string& w) { return w.starts_with("CALL SUB") || is_unused_value(w); });
     CHECK(all.empty());
   }
   CHECK(skips(run("   1:J P[1] 50% FINE PTH ;\n"), "change the path at corners, not read", false));

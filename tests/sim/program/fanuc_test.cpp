@@ -42,6 +42,19 @@ Reading run(const std::string& lines, const ImportOptions& options = {}, const s
 
 }  // namespace
 
+TEST_CASE("fanuc: an answer that the program does not ask for is a warning") {
+  ImportOptions options =
+      given({{"R[7]", "3"}, {"R[8]", "3"}, {"DI[9]", "ON"}, {"PR[2]", "J1 1 J2 2 J3 3 J4 4 J5 5 J6 6"}});
+  options.assume["cell.ls:99"] = Assumption::then_branch;
+  options.choose["cell.ls:98"] = "2";
+  const Reading r = run("1:J P[1] 50% FINE ;\n2:IF R[8]>1,JMP LBL[1] ;\n3:J P[1] 20% FINE ;\n4:LBL[1] ;\n", options);
+  REQUIRE(r.problem() == "no such problem");
+  for (const char* answer : {"motion.values of r[7]", "motion.values of di[9]", "motion.values of pr[2]",
+                             "motion.assume of cell.ls:99", "motion.assume of cell.ls:98"})
+    CHECK(skips(r, answer, true));
+  CHECK(!skips(r, "motion.values of r[8]", true));
+}
+
 TEST_CASE("fanuc: moves, speeds, terminations, the third axis is given against the horizontal") {
   const Reading r =
       run("   1:J P[1] 50% CNT100 ACC80   ;\n   2:  !comment; with a semicolon ;\n   3:L P[2:weld] 500mm/sec "

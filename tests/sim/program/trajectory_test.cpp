@@ -40,6 +40,34 @@ TEST_CASE("columns: the unit comes from the names, where neither they nor the an
         Approx(-98 * degree).epsilon(rounding));
 }
 
+TEST_CASE("columns, ROS: an answer that the file does not ask for is a warning, and degrees are refused for ROS") {
+  CHECK(skips(columns("time,a1 [deg]\n0,1\n", {{"spead", "1"}}), "motion.values of spead", true));
+  const std::string one = "joint_names: [j1]\npoints:\n" + point("0.5", 0) + point("0.6", 1);
+  CHECK(skips(ros(one, {{"spead", "1"}}), "motion.values of spead", true));
+  CHECK(ros(one, {{"unit", "rad"}}).program.skipped.empty());
+  CHECK(ros(one, {{"unit", "deg"}}).problem().find("whose angles are in rad") != std::string::npos);
+}
+
+TEST_CASE("ROS: a fault in a later document has its line") {
+  const std::string one = "joint_names: [j1]\npoints:\n" + point("0.5", 0) + point("0.6", 1);  // four lines
+  CHECK(ros(one + "---\njoint_names: [j1]\npoints:\n- {positions: [x], time_from_start: 0}\n", {{"trajectory", "2"}})
+            .problem()
+            .starts_with("j.yaml:8:"));
+  CHECK(ros(one + "---\na: 1\na: 2\n").problem().starts_with("j.yaml:7:"));
+}
+
+TEST_CASE("columns: T is the sixth axis of S, L, U, R, B, T") {
+  for (const char* names :
+       {"time_s,S_deg,L_deg,U_deg,R_deg,B_deg,T_deg", "S_deg,L_deg,U_deg,R_deg,B_deg,T_deg,time_s"}) {
+    const bool time_first = names[0] == 't';
+    const Reading r = columns(std::string(names) + "\n" + (time_first ? "0,1,2,3,4,5,6\n" : "1,2,3,4,5,6,0\n"));
+    REQUIRE(r.problem() == "no such problem");
+    REQUIRE(r.move(0).target.joints.size() == 6);
+    CHECK(r.move(0).target.joints[5] == Approx(6 * degree).epsilon(rounding));
+  }
+  CHECK(columns("T,a1 [deg]\n0,1\n2,3\n").move(1).speed.duration == 2.0);
+}
+
 TEST_CASE("columns: decimal commas in cells that semicolons separate") {
   const Reading read = columns("time;a1 [deg];a2 [deg]\n0,0;-90,5;1e1\n0,5;0,25;10\n");
   REQUIRE(read.problems.empty());
