@@ -23,8 +23,9 @@ class Lines {
     for (std::size_t begin = 0; begin < bytes.size();) {
       const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
       std::string line = bytes.substr(begin, end - begin);
-      if (!line.empty() && line.back() == '\r') line.pop_back(), crlf_ = true;
-      lines_.push_back({{std::move(line)}, false});
+      const bool has_return = !line.empty() && line.back() == '\r';
+      if (has_return) line.pop_back();
+      lines_.push_back({{std::move(line)}, false, has_return ? "\r" : ""});
       original_.push_back(lines_.back().now[0]);
       ends_with_newline_ = end < bytes.size();
       begin = end + 1;
@@ -71,12 +72,23 @@ class Lines {
     }
   }
 
+  /// Returns the numbers that the lines have in the changed file.
+  std::vector<int> numbers() const {
+    std::vector<int> made;
+    std::size_t before = 0;
+    for (const Line& line : lines_) {
+      made.push_back(static_cast<int>(before + line.own) + 1);
+      before += line.now.size();
+    }
+    return made;
+  }
+
   std::string text() const {
     std::string made;
     for (std::size_t i = 0; i < lines_.size(); ++i)
       for (std::size_t k = 0; k < lines_[i].now.size(); ++k) {
         const bool last = i + 1 == lines_.size() && k + 1 == lines_[i].now.size();
-        made += lines_[i].now[k] + (crlf_ ? "\r" : "") + (last && !ends_with_newline_ ? "" : "\n");
+        made += lines_[i].now[k] + lines_[i].end + (last && !ends_with_newline_ ? "" : "\n");
       }
     return made;
   }
@@ -100,15 +112,15 @@ class Lines {
       for (std::size_t k = begin; k < end; ++k) {
         const Line& line = lines_[k];
         if (!line.changed) {
-          body += row(' ', original_[k], k + 1 == lines_.size());
+          body += row(' ', original_[k] + line.end, k + 1 == lines_.size());
           ++now;
           continue;
         }
         const bool kept = line.now[line.own] == original_[k];
-        if (!kept) body += row('-', original_[k], k + 1 == lines_.size());
+        if (!kept) body += row('-', original_[k] + line.end, k + 1 == lines_.size());
         for (std::size_t n = 0; n < line.now.size(); ++n)
-          body +=
-              row(kept && n == line.own ? ' ' : '+', line.now[n], k + 1 == lines_.size() && n + 1 == line.now.size());
+          body += row(kept && n == line.own ? ' ' : '+', line.now[n] + line.end,
+                      k + 1 == lines_.size() && n + 1 == line.now.size());
         now += line.now.size();
       }
       made += fmt::format("@@ -{},{} +{},{} @@\n", begin + 1, end - begin, begin + 1 + added, now) + body;
@@ -122,17 +134,17 @@ class Lines {
   struct Line {
     std::vector<std::string> now;
     bool changed;
+    const char* end;      // "\\r" or nothing: before the newline
     std::size_t own = 0;  // index of the line itself among them
   };
   std::string row(char mark, const std::string& line, bool last) const {
-    return mark + line + (crlf_ ? "\r" : "") + "\n" +
-           (last && !ends_with_newline_ ? "\\ No newline at end of file\n" : "");
+    return mark + line + "\n" + (last && !ends_with_newline_ ? "\\ No newline at end of file\n" : "");
   }
 
   std::string file_;
   std::vector<Line> lines_;
   std::vector<std::string> original_;
-  bool crlf_ = false, ends_with_newline_ = true;
+  bool ends_with_newline_ = true;
 };
 
 [[noreturn]] void refuse(const LineChange& change, const std::string& what) {
@@ -182,6 +194,22 @@ struct Writer {
     for (std::size_t i = 0; i < tokens.size(); ++i)
       if (tokens[i].line == change.where.line && tokens[i].column == change.where.column) return i;
     refuse(change, "its words are not found");
+  }
+
+  /// Refuses an additional line before the instruction unless the instruction begins its line and is a statement by itself:
+  /// otherwise the added line would run without the condition or the wait before the instruction.
+  void need_own_line(std::size_t name, const LineChange& change) const {
+    if (name == 0) return;
+    const Token& before = tokens[name - 1];
+    static const pipeline::WordSet ends =
+        pipeline::word_set("; : then do else error undo endif endfor endwhile endtest");
+    // The last parenthesis of PROC main(): the word before the name is PROC.
+    std::size_t open = name - 1;
+    while (before.text == ")" && open > 2 && tokens[open].text != "(") --open;
+    const bool header = before.text == ")" && open > 1 && same_word(tokens[open - 2].text, "proc");
+    if (before.kind != Token::Kind::line_end && !header &&
+        (before.line == tokens[name].line || !ends.contains(lower_case(before.text))))
+      refuse(change, "a line before it would run without what the program does right before it");
   }
 
   std::string_view text(std::size_t first, std::size_t last) const {  // tokens first .. last
@@ -317,6 +345,7 @@ void change_rapid(Writer& w, const LineChange& change) {
               change);
   if (change.point.empty()) return;
   if (!read.target.external_axes.empty()) refuse(change, "external axes move with it");
+  w.need_own_line(name, change);
   w.lines.before(w.tokens[name].line, fmt::format("{}MoveAbsJ [[{}],[9E9,9E9,9E9,9E9,9E9,9E9]],{},z50,{}; ! {}",
                                                   indentation(w.lines.at(w.tokens[name].line)),
                                                   in_degrees(change.point), old_speed, old_tool, change.reason));
@@ -346,6 +375,7 @@ void change_krl(Writer& w, const LineChange& change) {
     last = i;
   }
   if (last == name) refuse(change, "its target is not found");
+  if (change.speed || !change.point.empty()) w.need_own_line(name, change);
   const int line = w.tokens[name].line;
   const std::string margin = indentation(w.lines.at(line)), comment = " ; " + change.reason;
   w.lines.now(line) += comment;
@@ -369,11 +399,12 @@ void change_krl(Writer& w, const LineChange& change) {
     w.lines.before(line, fmt::format("{}PTP {{{}}}{}", margin, krl_axes(change.point), comment));
   if (!change.speed) return;
   if (!read.speed.axis_percent) refuse(change, "its speed is not one percentage of all axes");
+  const double written = *read.speed.axis_percent / read.speed.override_share;
   const auto basics = [&](double percent) {
     return fmt::format("{}BAS(#VEL_PTP,{})", margin, pipeline::short_decimal(percent, 4));
   };
-  w.lines.before(line, basics(*read.speed.axis_percent * *change.speed) + comment);
-  w.lines.behind(line, basics(*read.speed.axis_percent) + " ; as before");
+  w.lines.before(line, basics(written * *change.speed) + comment);
+  w.lines.behind(line, basics(written) + " ; as before");
 }
 
 // ---- Fanuc --------------------------------------------------------------------------------------------------------
@@ -559,7 +590,8 @@ void change_script(Writer& w, const LineChange& change) {
 Rewritten rewritten(Language language, const std::string& file, const std::string& bytes, const Program& program,
                     const std::vector<LineChange>& changes, const std::string& shown) {
   if (decoded_text(bytes) != bytes)
-    throw pipeline::InputError({file}, "is written in another encoding than UTF-8", "save it as UTF-8 first");
+    throw pipeline::InputError({file}, "is not plain UTF-8 (another encoding, a byte order mark, or no line feeds)",
+                               "save it as UTF-8 without a byte order mark first");
   Lines lines(shown, bytes);
   const SourceFile source(file, bytes);
   Problems problems;
@@ -592,7 +624,7 @@ Rewritten rewritten(Language language, const std::string& file, const std::strin
     }
   }
   if (language == Language::fanuc) lines.renumber(1, positions_begin(lines));
-  return {lines.text(), lines.patch()};
+  return {lines.text(), lines.patch(), lines.numbers()};
 }
 
 }  // namespace dresslife::sim

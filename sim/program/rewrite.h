@@ -30,6 +30,7 @@ struct LineChange {
 
 struct Rewritten {
   std::string text, patch;
+  std::vector<int> numbers;  ///< of the file's lines in the changed text
 };
 
 /// Returns the changed text of a file and the patch. file: the file's name in the program's places; bytes: its

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/settings/document.h"
 #include "sim/robot/inverse_kinematics.h"
 
@@ -106,22 +107,73 @@ std::string other_difference(const pipeline::Motion& before, const pipeline::Mot
   return next == after.steps.size() ? "" : "it has more moves";
 }
 
+namespace {
+
+/// Returns the name of an answer, "fa.ls:7" or "main.mod:12:di5", with the line's number in the changed files. A number
+/// alone means a line of any file: the answer then gets a name for each of the program's files.
+std::vector<std::string> names_in(const std::map<std::string, std::vector<int>>& numbers,
+                                  const std::set<std::string>& files, const std::string& name) {
+  const auto short_name = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+  const auto moved = [&](const std::string& file, int line) {
+    const auto changed = numbers.find(file);
+    const bool known = changed != numbers.end() && line >= 1 && line <= static_cast<int>(changed->second.size());
+    return known ? changed->second[static_cast<std::size_t>(line) - 1] : line;
+  };
+  if (const auto line = pipeline::whole_number_in<int>(std::string_view(name))) {
+    std::vector<std::string> made;
+    for (const std::string& file : files) made.push_back(fmt::format("{}:{}", file, moved(file, *line)));
+    return made;
+  }
+  for (const auto& [file, lines] : numbers)
+    for (const std::string& begin : {file + ":", short_name(file) + ":"}) {
+      if (!pipeline::same_word(std::string_view(name).substr(0, begin.size()), begin)) continue;
+      const std::size_t end = std::min(name.find(':', begin.size()), name.size());
+      const auto line = pipeline::whole_number_in<int>(std::string_view(name).substr(begin.size(), end - begin.size()));
+      if (line) return {fmt::format("{}{}{}", begin, moved(file, *line), name.substr(end))};
+    }
+  return {name};
+}
+
+/// Returns the motion with its answers at the lines of the changed files.
+pipeline::Motion at_changed_lines(pipeline::Motion motion, const ReadProgram& read,
+                                  const std::map<std::string, std::vector<int>>& numbers) {
+  std::set<std::string> files{read.program.start.file};
+  for (const Instruction& instruction : read.program.instructions) files.insert(instruction.where.file);
+  std::vector<pipeline::BranchAssumption> assume;
+  for (const pipeline::BranchAssumption& one : motion.assume)
+    for (const std::string& name : names_in(numbers, files, one.line)) assume.push_back({name, one.take});
+  motion.assume = std::move(assume);
+  for (pipeline::ProgramValue& value : motion.values)
+    if (value.name.find(':') != std::string::npos) value.name = names_in(numbers, files, value.name).front();
+  return motion;
+}
+
+}  // namespace
+
 PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const ProgramWay& way) {
   namespace fs = std::filesystem;
   std::set<std::string> files;
   for (const LineChange& change : way.changes) files.insert(change.where.file);
   std::map<std::string, std::string> instead;
+  std::map<std::string, std::vector<int>> numbers;
   PatchedProgram made;
   const bool is_folder = pipeline::kind_of(job.motion.program) == pipeline::FileKind::folder;
   const fs::path folder = is_folder ? job.motion.program : job.motion.program.parent_path();
   for (const std::string& file : files) {
     const fs::path below = fs::proximate(file, folder.empty() ? "." : folder);
+    if (below.begin() != below.end() && *below.begin() == "..")
+      throw pipeline::InputError({file},
+                                 "cannot be changed by itself: it is outside of the program's folder, where the "
+                                 "patch is applied",
+                                 "name a folder that contains it as motion.program, or change it by hand");
     const Rewritten changed = rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
                                         below.empty() ? file : below.generic_string());
     instead[file] = changed.text;
+    numbers[file] = changed.numbers;
     made.patch += changed.patch;
   }
-  made.motion = motion_of(read_program(job.motion, flange_at(job.robot), instead), job.motion);
+  made.motion =
+      motion_of(read_program(at_changed_lines(job.motion, read, numbers), flange_at(job.robot), instead), job.motion);
   const std::string other = other_difference(read.motion, made.motion, way.changes);
   if (!other.empty())
     throw pipeline::InputError(way.changes.front().where,

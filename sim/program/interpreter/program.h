@@ -68,6 +68,7 @@ struct MoveSpeed {
   std::optional<double> duration;           ///< duration of the whole move [s]
   std::optional<double> axis_acceleration;  ///< largest acceleration of the fastest axis [rad/s2]
   std::optional<double> tool_acceleration;  ///< largest acceleration of the tool's origin along its path [m/s2]
+  double override_share = 1;                ///< KRL: $OV_PRO, which the speeds contain
 };
 
 struct MoveZone {

@@ -440,6 +440,7 @@ bool Krl::read_override(const Statement& statement, Instruction& move) {
   const double share = std::min(value->number, 100.0) / 100;
   for (std::optional<double>* speed : {&move.speed.axis_percent, &move.speed.tool, &move.speed.orientation})
     if (*speed) **speed *= share;
+  move.speed.override_share = share;
   return true;
 }
 

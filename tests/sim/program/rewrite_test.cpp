@@ -126,11 +126,22 @@ TEST_CASE("rewrite: RAPID, each change read back, all else stays byte by byte") 
   CHECK(by.after.move(2).target.pose.position == by.before.move(1).target.pose.position);
 }
 
+TEST_CASE("rewrite: each line keeps its line end") {
+  std::string mixed = rapid;
+  mixed.insert(mixed.find("\n    MoveJ p10"), "\r");
+  const Changed slow = changed(Language::rapid, "m.mod", mixed, 1, {.speed = 0.7});
+  CHECK(std::ranges::count(slow.written.text, '\r') == 1);
+}
+
 TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   const Changed slow = changed(Language::krl, "m.src", krl, 1, {.speed = 0.5});
   CHECK(slow.after.move(0).speed.axis_percent.value() == 60);
   CHECK(slow.after.move(1).speed.axis_percent.value() == 30);
   CHECK(slow.after.move(2).speed.axis_percent.value() == 60);
+  const Changed overridden =
+      changed(Language::krl, "m.src", std::string(krl).insert(krl.find("BAS("), "$OV_PRO=50\n"), 1, {.speed = 0.5});
+  CHECK(overridden.after.move(1).speed.axis_percent.value() == 15);
+  CHECK(overridden.after.move(2).speed.axis_percent.value() == 30);
   const Changed turned = changed(Language::krl, "m.src", krl, 1,
                                  {.configuration = ArmConfiguration{ArmConfiguration::Kind::kuka, {6, 58}}});
   CHECK(turned.after.move(1).target.configuration.text() == "kuka 6 58");
@@ -195,4 +206,22 @@ TEST_CASE("rewrite: what cannot be written is reported at its line") {
   CHECK(refusal(timed, 1, {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 0, 0, 0}}})
             .find("it is run with several targets") != std::string::npos);
   CHECK(refusal(timed, 1, {.speed = 0.7}) == "");
+  CHECK(pipeline::message_of([&] {
+          rewritten(Language::rapid, "m.mod", "\xEF\xBB\xBF" + timed, {}, {}, "m.mod");
+        }).find("a byte order mark") != std::string::npos);
+  // A point is an additional line: it must not run without the condition or the wait before the move.
+  const std::string move = "MoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tool0;\n";
+  const LineChange by_a_point{.point = {0.1, 0, 0, 0, 0, 0}};
+  for (const auto& [before, refused] : {std::pair<std::string, bool>{"IF TRUE ", true},
+                                        {"IF (TRUE)\n", true},
+                                        {"WaitTime 1; ", true},
+                                        {"WaitTime 1;\n", false},
+                                        {"", false},
+                                        {"IF TRUE THEN\n", false}}) {
+    INFO(before);
+    const std::string end = before.ends_with("THEN\n") ? "ENDIF\n" : "";
+    const std::string text = "MODULE m\nPROC main()\n" + before + move + end + "ENDPROC\nENDMODULE\n";
+    CHECK((refusal(text, before.starts_with("Wait") ? 1 : 0, by_a_point).find("a line before it would run") !=
+           std::string::npos) == refused);
+  }
 }
