@@ -14,6 +14,7 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/legs.h"
 #include "sim/robot/robot.h"
@@ -214,19 +215,25 @@ class Ways {
     return step;
   }
 
-  /// Returns whether the process determines the speed, as in a weld or a bead: RAPID's Arc and Disp instructions, or a seam.
-  bool is_process(const pipeline::MotionStep& step) const {
-    const std::size_t colon = step.text.rfind(": ");
-    const std::string line = step.text.substr(colon == std::string::npos ? 0 : colon + 2);
-    return (line.starts_with("Arc") && !line.starts_with("ArcMove")) || line.starts_with("Disp") ||
-           line.find("WELD_SPEED") != std::string::npos || seams_.contains({step.where.file, step.where.line});
-  }
-
-  /// Collects the lines between begin and end of a weld in Fanuc's and Yaskawa's programs.
+  /// Collects the lines whose speed the process determines, as in a weld or a bead: RAPID's Arc and Disp instructions, moves
+  /// with WELD_SPEED, and the lines between begin and end of a weld in Fanuc's and Yaskawa's programs.
   void find_seams() {
-    const bool is_fanuc = read_.language == Language::fanuc;
+    const bool is_fanuc = read_.language == Language::fanuc, is_rapid = read_.language == Language::rapid;
+    std::map<std::string, SourceFile> sources;
+    for (const Instruction& move : read_.program.instructions) {
+      const pipeline::Where& at = move.where;
+      if (is_rapid) sources.try_emplace(at.file, at.file, pipeline::read_text(at.file));
+      const std::string words =
+          pipeline::lower_case(is_rapid ? sources.at(at.file).from(at.line, at.column) : move.text);
+      const bool arc = words.starts_with("arc") && !words.starts_with("arcmove");
+      if (is_rapid ? arc || words.starts_with("disp") : words.find("weld_speed") != std::string::npos)
+        seams_.emplace(at.file, at.line);
+    }
     if (!is_fanuc && read_.language != Language::inform) return;
-    const std::string begin = is_fanuc ? "Arc Start" : "ARCON", end = is_fanuc ? "Arc End" : "ARCOF";
+    using Words = std::vector<std::string>;
+    const Words begins = is_fanuc ? Words{"arc start", "weld start"} : Words{"arcon"},
+                ends = is_fanuc ? Words{"arc end", "weld end"} : Words{"arcof"},
+                comments = is_fanuc ? Words{"!"} : Words{"'", "//"};
     std::set<std::string> files;
     for (const pipeline::MotionStep& step : read_.motion.steps)
       if (!step.where.file.empty()) files.insert(step.where.file);
@@ -237,9 +244,11 @@ class Ways {
       for (std::string line; std::getline(text, line);) {
         ++number;
         if (is_seam) seams_.emplace(file, number);
-        line = line.substr(0, line.find(is_fanuc ? '!' : '\''));  // a comment
-        if (line.find(begin) != std::string::npos) is_seam = true;
-        if (line.find(end) != std::string::npos) is_seam = false;
+        for (const std::string& comment : comments) line = line.substr(0, line.find(comment));
+        line = pipeline::lower_case(line);
+        const auto in_line = [&](const std::string& words) { return line.find(words) != std::string::npos; };
+        if (std::ranges::any_of(begins, in_line)) is_seam = true;
+        if (std::ranges::any_of(ends, in_line)) is_seam = false;
       }
     }
   }
@@ -247,7 +256,9 @@ class Ways {
   std::optional<ProgramWay> slower(std::size_t line, double factor) const {
     for (const std::size_t k : lines_.all()[line].moves) {
       const pipeline::MotionStep& step = read_.motion.steps[k];
-      if (step.duration || is_process(step) || !(step.speed || step.speed_percent || step.tool_speed)) return {};
+      if (step.duration || seams_.contains({step.where.file, step.where.line}) ||
+          !(step.speed || step.speed_percent || step.tool_speed))
+        return {};
       if (read_.language == Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
     }
     ProgramWay way{fmt::format("at {:.0f} % of its speed", 100 * factor), {lines_.all()[line].name}, {}};

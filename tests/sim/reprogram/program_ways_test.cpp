@@ -7,6 +7,7 @@
 
 #include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/reprogram/patched_program.h"
 #include "sim/robot/legs.h"
@@ -89,21 +90,68 @@ TEST_CASE("program ways: a line is changed for what it and the stands behind it 
   }
 }
 
-TEST_CASE("program ways: the speed of a weld between Arc Start and Arc End belongs to the process") {
+TEST_CASE("program ways: the speed of a weld or a bead belongs to the process") {
   const Scratch scratch;
-  const Job job =
-      read_job(scratch.write("job.yaml", "robot: fanuc_m20ia\nmotion: {program: " DRESSLIFE_SOURCE_DIR
-                                         "/config/programs/frame_weld.ls}\ndresspack: handling\nrouting:\n"
-                                         "  base_clamp: {link: link_3, position_m: [0, 0, 0.3], direction: [1, 0, 0]}\n"
-                                         "  tool_clamp: {link: link_6, position_m: [0, 0.1, 0], direction: [1, 0, 0]}\n"
-                                         "  free_length_m: 1.5\n"));
+  const auto slowed = [](const Job& job) {
+    const ReadProgram read = read_job_program(job);
+    std::set<std::string> lines;
+    for (const ProgramWay& way : program_ways(job, read, std::vector<double>(30, 1.0), 30))
+      if (way.what == "at 50 % of its speed") lines.insert(way.lines.at(0));
+    return lines;
+  };
+  std::string weld = read_text(DRESSLIFE_SOURCE_DIR "/config/programs/frame_weld.ls");
+  for (const char* process : {"Arc", "Weld"}) {
+    for (const char* words : {"Arc Start", "Arc End"})
+      if (const std::size_t at = weld.find(words); at != std::string::npos) weld.replace(at, 3, process);
+    scratch.write("frame_weld.ls", weld);
+    const std::set<std::string> lines =
+        slowed(read_job(scratch.write("job.yaml",
+                                      "robot: fanuc_m20ia\nmotion: {program: frame_weld.ls}\ndresspack: handling\n"
+                                      "routing:\n"
+                                      "  base_clamp: {link: link_3, position_m: [0, 0, 0.3], direction: [1, 0, 0]}\n"
+                                      "  tool_clamp: {link: link_6, position_m: [0, 0.1, 0], direction: [1, 0, 0]}\n"
+                                      "  free_length_m: 1.5\n")));
+    CHECK(lines.contains("frame_weld.ls:12"));
+    CHECK(!lines.contains("frame_weld.ls:14"));
+    CHECK(lines.contains("frame_weld.ls:16"));
+  }
+  Job job = shipped("side_panel.yaml");
+  job.motion.program = scratch.write(
+      "bead.mod",
+      "MODULE m\nCONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "CONST jointtarget b:=[[-20,10,0,40,50,60],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "CONST robtarget p:=[[1400,200,1500],[0.5,0,0.8660254,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\n"
+      "ConfL\\Off; ConfJ\\Off;\nMoveAbsJ a,v1000,fine,tool0;\nMoveJ p,v1000,fine,tool0;\n"
+      "  DISPL Offs(p,0,-400,0),v200,bead1,z10,tool0; ! bead: left side\nMoveAbsJ b,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
+  CHECK(slowed(job) == std::set<std::string>{"bead.mod:7", "bead.mod:8", "bead.mod:10"});
+}
+
+TEST_CASE("program ways: answers stay at their lines when a way adds lines, and files outside are not changed") {
+  const Scratch scratch;
+  const std::string frame = "[9E9,9E9,9E9,9E9,9E9,9E9]]";
+  const auto joints = [&](const char* name, const char* angles) {
+    return fmt::format("CONST jointtarget {}:=[[{}],{};\n", name, angles, frame);
+  };
+  const std::string text = "MODULE m\n" + joints("a", "0,-20,20,60,30,20") + joints("b", "30,0,10,-60,-40,-50") +
+                           joints("c", "-20,10,0,40,50,60") +
+                           "PROC main()\nMoveAbsJ a,v1000,z50,tool0;\nMoveAbsJ b,v1000,z50,tool0;\nIF di5=1 THEN\n"
+                           "MoveAbsJ c,v1000,fine,tool0;\nENDIF\nENDPROC\nENDMODULE\n";
+  Job job = shipped("side_panel.yaml");
+  job.motion.program = scratch.write("job/m.mod", text);
+  for (const char* line : {"m.mod:8", "8"}) {
+    job.motion.assume = {{line, "then"}};
+    const ReadProgram read = read_job_program(job);
+    REQUIRE(read.motion.steps.size() == 3);
+    const ProgramWay way{"by a point", {}, {{.where = read.motion.steps[1].where, .point = {0.1, 0, 0, 0, 0, 0}}}};
+    CHECK(patched(job, read, way).motion.steps.size() == 4);
+  }
+  job.motion.program = scratch.write("job/start.mod", "MODULE s\nPROC start()\nmain;\nENDPROC\nENDMODULE\n");
+  job.motion.routine = "start";
+  job.motion.modules = {{scratch.write("lib/m.mod", text)}};
   const ReadProgram read = read_job_program(job);
-  std::set<std::string> slowed;
-  for (const ProgramWay& way : program_ways(job, read, std::vector<double>(30, 1.0), 30))
-    if (way.what == "at 50 % of its speed") slowed.insert(way.lines.at(0));
-  CHECK(slowed.contains("frame_weld.ls:12"));
-  CHECK(!slowed.contains("frame_weld.ls:14"));
-  CHECK(slowed.contains("frame_weld.ls:16"));
+  const ProgramWay slower{"slower", {}, {{.where = read.motion.steps[0].where, .speed = 0.5}}};
+  CHECK(message_of([&] { patched(job, read, slower); }).find("it is outside of the program's folder") !=
+        std::string::npos);
 }
 
 TEST_CASE("program ways: a line that runs again and again is changed for all of its moves") {
