@@ -176,7 +176,8 @@ int improve_study(ImproveOptions options) {
   const Study study = read_study(options.request.file, options.sets);
   const FilesAtStart files = files_of(study);
   if (const MountingTolerance by = tolerance_of(options.off_mm, options.off_deg);
-      !by.none() && nudges_of(study.jobs, by).empty()) {
+      !by.none() && std::ranges::all_of(study.jobs, [](const StudyJob& of) { return of.job != nullptr; }) &&
+      nudges_of(study.jobs, by).empty()) {
     write_stderr(
         "note: the mounting tolerance is not tried, because an offset is that of one routing, and the routings of the jobs "
         "differ. --off 0 leaves out this note.\n");

@@ -295,7 +295,7 @@ TEST_CASE("improve refuses what it cannot search") {
         0);
   // A mounting tolerance is that of one routing.
   scratch.write("two.yaml",
-                "base: job.yaml\njobs: {a: {}, b: {routing.base_clamp.position_m.1: 0.01}}\n"
+                "base: job.yaml\njobs: {a: {}, b: {routing.free_length_m: 0.93}}\n"
                 "free: {routing.nothing_m: 1 .. 2}\n");
   CHECK_THAT(run(scratch, "dresslife", "improve two.yaml").err,
              Catch::StartsWith("note: the mounting tolerance is not tried"));
