@@ -114,6 +114,27 @@ sim::Program program_of(const pipeline::Motion& asked, const std::filesystem::pa
   }
 }
 
+/// Refuses options that this kind of work does not use.
+void refuse_unused(const Request& request, const pipeline::StageCall& call) {
+  const bool of_job = !request.ways.empty(), of_log = !request.log.empty();
+  if (!of_job && !of_log && !call.sets.empty())
+    throw pipeline::InputError({"--set " + call.sets.front()}, "changes a job, and the input is a program",
+                               "give --routine, --assume, --value or --passes, or set it in a job with this program");
+  const std::pair<const char*, bool> others[] = {{"--log", of_job && of_log},
+                                                 {"--routine", !request.routine.empty()},
+                                                 {"--answers", !request.answers.empty()},
+                                                 {"--assume", !request.assume.empty()},
+                                                 {"--module", !request.modules.empty()},
+                                                 {"--frames", !request.frames.empty()},
+                                                 {"--value", of_job && !request.values.empty()},
+                                                 {"--passes", request.passes.has_value()},
+                                                 {"--explain", request.explain}};
+  for (const auto& [option, given] : others)
+    if (given && (of_job || of_log))
+      throw pipeline::InputError({option}, of_job ? "does nothing with --ways" : "does nothing with --log",
+                                 of_job ? "write it into the job (motion)" : "leave it out");
+}
+
 /// What the lines of a job's program could do instead.
 void note_ways(const Request& request, const pipeline::StageCall& call) {
   if (call.output.empty())
@@ -289,6 +310,7 @@ int main(int argc, char** argv) {
               &request.recordings, 1, 20, {.needs = "--log"})}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        refuse_unused(request, call);
         if (!request.ways.empty()) return note_ways(request, call);
         if (!request.log.empty()) return note_log(request, call, progress);
         if (call.output.empty() && !request.explain)

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/whole_file.h"
@@ -36,6 +38,26 @@ struct Request {
   sim::ProposalSettings proposals;
   std::optional<double> bracket_mm;
 };
+
+/// Refuses options that do nothing beside the others.
+void refuse_unused(const Request& request) {
+  std::vector<const char*> given;
+  for (const auto& [option, is_given] : {std::pair{"--duration", request.duration},
+                                         {"--preview", request.preview},
+                                         {"--screen", !request.screen.empty()},
+                                         {"--propose", request.propose.has_value()}})
+    if (is_given) given.push_back(option);
+  if (given.size() > 1)
+    throw pipeline::InputError({given[1]}, fmt::format("does nothing with {}", given[0]), "give one of the two");
+  const auto need = [](const char* option, bool is_given, bool used, const char* with) {
+    if (is_given && !used)
+      throw pipeline::InputError({option}, fmt::format("does nothing without {}", with), "give both");
+  };
+  need("--by-short-runs", request.by_short_runs, !request.screen.empty(), "--screen");
+  const bool has_cell = !given.empty() && !request.duration;
+  need("--bracket", request.bracket_mm.has_value(), has_cell, "--preview, --screen or --propose");
+  need("--exercise", request.exercise, has_cell, "--preview, --screen or --propose");
+}
 
 /// What is asked for without a run. Returns false when it is the run that is asked for.
 bool written_without_run(const Request& request, const pipeline::StageCall& call, pipeline::Job& job,
@@ -76,6 +98,7 @@ void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
     throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed",
                                "run it");
   const auto path = sim::path_of(job);
+  sim::check_size(job, path->duration(), job.simulation.segments);
   const double rate = job.simulation.sample_rate, seconds = sim::intervals(path->duration(), rate) / rate;
   std::string text = fmt::format("repeat_seconds: {}\n", seconds);
   if (const auto space = tool_space(job, *path); space && !space->line.key.empty())
@@ -169,6 +192,7 @@ int main(int argc, char** argv) {
       .results = pipeline::results_of_checks};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
+        refuse_unused(request);
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
         if (request.duration) return write_duration(call, job);
         if (written_without_run(request, call, job, progress)) return;

@@ -124,7 +124,10 @@ void add_answers(const std::filesystem::path& file, pipeline::Motion& motion) {
     const pipeline::Node* node = entry.is_map() ? entry.find(key) : nullptr;
     return node && node->is_scalar() ? std::optional(node->text) : std::nullopt;
   };
-  for (pipeline::Entry& section : document.entries)
+  for (pipeline::Entry& section : document.entries) {
+    if (section.key != "tools" && section.key != "work_objects" && section.key != "values" && section.key != "assume")
+      throw pipeline::InputError(section.where, fmt::format("has '{}', which is no answer", section.key),
+                                 "keep tools, work_objects, values and assume; options or a job give the rest");
     std::erase_if(section.value.items, [&](const pipeline::Node& entry) {  // empty entries
       const pipeline::Node* position = entry.is_map() ? entry.find("position_mm") : nullptr;
       const auto name = text_of(entry, "name"), line = text_of(entry, "line");
@@ -136,6 +139,7 @@ void add_answers(const std::filesystem::path& file, pipeline::Motion& motion) {
         return motion.assume.push_back({*line, ""}), true;
       return false;
     });
+  }
   pipeline::Motion read = pipeline::motion_from(document);
   const auto append = [](auto& to, auto& from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));

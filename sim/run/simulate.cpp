@@ -12,17 +12,8 @@
 
 namespace dresslife::sim {
 
-int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
-
-namespace {
-
 using pipeline::InputError;
 
-constexpr double same_step = 1e-9, rounding = 1e-9;  // [s]
-constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
-
-/// Checks the size before memory or time is used. The acceleration of each step of a repeat is kept, 8 bytes each; each
-/// sample is written with at least 136 bytes per segment.
 void check_size(const pipeline::Setup& setup, double duration, int segments) {
   constexpr double most_steps = 1e8, most_values = 1e9;  // 0.8 GB of memory, 140 GB of disk
   const pipeline::SimulationSettings& settings = setup.simulation;
@@ -38,6 +29,13 @@ void check_size(const pipeline::Setup& setup, double duration, int segments) {
                                  duration, duration * settings.sample_rate, segments, 136e-9 * values),
                      "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
 }
+
+int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
+
+namespace {
+
+constexpr double same_step = 1e-9, rounding = 1e-9;  // [s]
+constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
 
 std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
   std::vector<MotionLimits> limits;

@@ -64,6 +64,10 @@ struct Sample {
 /// rounding gets no additional one. One repeat in motion.h5 takes so many.
 int intervals(double duration, double rate);
 
+/// Checks the size of a run before memory or time is used. The acceleration of each step of a repeat is kept, 8 bytes each;
+/// each sample is written with at least 136 bytes per segment. Errors: InputError for a motion that is too long.
+void check_size(const pipeline::Setup& setup, double duration, int segments);
+
 /// The summary of a run.
 struct RunSummary {
   int repeats = 1;        ///< number of repeats that were run, including the lead-in; the last one is the result

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/job.h"
@@ -979,6 +980,20 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
         "'-n' takes no number (print what would be made and why, and run nothing); leave out '2'");
   CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
         "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");
+  // Options that do nothing beside the others are refused.
+  for (const auto& [program, words, message] :
+       {std::tuple("dresslife-import", "spot.mod -o m.yaml --set simulation.segments=3",
+                   "--set simulation.segments=3: error: changes a job"),
+        std::tuple("dresslife-import", "job.yaml -o w.h5 --ways l.h5 --explain",
+                   "--explain: error: does nothing with --ways"),
+        std::tuple("dresslife-sim", "job.yaml -o p.h5 --preview --propose 3",
+                   "--propose: error: does nothing with --preview"),
+        std::tuple("dresslife-sim", "job.yaml -o d.yaml --duration --exercise",
+                   "--exercise: error: does nothing without --preview")}) {
+    const Outcome outcome = run(scratch, program, words);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Contains(message));
+  }
   scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2100]\n");
   const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
   CHECK(dry.status == 1);

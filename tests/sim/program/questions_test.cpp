@@ -1,5 +1,8 @@
 // Questions of a program: all are asked in one round, with unique names, in a file that the user can fill in.
 #include "sim/program/answers.h"
+
+#include <utility>
+
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
@@ -437,6 +440,9 @@ TEST_CASE("questions: the file of answers can be filled in and is read back as i
       if (value.name == name) return value.value;
     return std::string("none");
   };
+  const std::string asked_file = std::exchange(file, file + "routine: other\n");
+  CHECK(pipeline::message_of(read_back).find("has 'routine', which is no answer") != std::string::npos);
+  file = asked_file;
   const pipeline::Motion empty = read_back();  // an empty answer is no answer
   CHECK(value_of(empty, "di1").empty());
   CHECK(value_of(empty, "o'clock") == "'12'");
