@@ -185,7 +185,7 @@ int improve_study(ImproveOptions options) {
   }
   SearchProgress progress(name, options);
   const TrialMakers makers{
-      [&](const Study& study) { return made_rows(study, places, progress.shown_here(options, study), files); },
+      [&](const Study& trials) { return made_rows(trials, places, progress.shown_here(options, trials), files); },
       [&](const Improvement& so_far) {
         progress.report(so_far);
         remove_trial_files(so_far, places, true);
