@@ -4,7 +4,8 @@
 // within a turn lengthens or shortens the path. Without friction the whole length takes the difference,
 //     net = (R cos^2(alpha) / L) x (sum over the segments of curvature x length x exp(-i phase)),
 // L: length from clamp to clamp. Its real part, turned by the phase of a part, is the strain of this part. A layer that slides over
-// its pitch (W10) lacks this strain. With a sharp bend it is at most R kappa p / (pi L) for a lay length p. In a smooth bend of many turns it is nearly zero.
+// its pitch (W10) lacks this strain. With a sharp bend it is at most R kappa p / (pi L) for a lay length p. In a smooth bend of
+// many turns it is nearly zero.
 #pragma once
 
 #include <array>

@@ -101,9 +101,10 @@ BentPart straight_cable(const Component& cable, double elongation, double curvat
           curvature == 0};
 }
 
-/// Returns the stiffness of a layer whose deviation is free, per size of the deformation and per length of the cable: of wires, and of
-/// the bed under a helix of parts. Bed and helix are in series: the helix has the share s of the mean strain m and the force E A s m,
-/// the bed has the rest. So twice their energy is E A s m^2, of which the wires in the parts contribute E A s^2 m^2.
+/// Returns the stiffness of a layer whose deviation is free, per size of the deformation and per length of the cable: of wires,
+/// and of the bed under a helix of parts. Bed and helix are in series: the helix has the share s of the mean strain m and the
+/// force E A s m, the bed has the rest. So twice their energy is E A s m^2. The wires in the parts contribute E A s^2 m^2, and
+/// the bed contributes E A s (1 - s) m^2.
 double own_stiffness(const Dresspack& dresspack, const Answer& of) {
   if (!of.layer.components.empty()) return of.weight * of.EA * of.share * (1 - of.share) * of.mean * of.mean;
   const Material* const material = find_material(dresspack, of.layer.material);

@@ -20,9 +20,9 @@ constexpr double hopeless = 0.5;   // share of the diameter, between the axes
 constexpr int steps = 64;          // of phi, to find the minimum
 constexpr const char* rough = "radii and lay angles that were measured or estimated roughly";
 
-/// Returns the distance of two helices of these radii with one rate of rotation [rad/m], one of which is turned against the other
-/// by 0 .. pi. The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where it is a lay
-/// before it. It is found by steps, then by ternary search.
+/// Returns the distance of two helices of these radii [m] with one rate of rotation [rad/m]. turned: angle between them in a
+/// cross-section, 0 .. pi. The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where
+/// it is a lay before it. It is found by steps, then by ternary search.
 double helix_distance(double R, double r, double rate, double turned) {
   const auto squared = [&](double phi) {
     return R * R + r * r - 2 * R * r * std::cos(turned + phi) + (phi == 0 ? 0 : std::pow(phi / rate, 2));

@@ -23,7 +23,7 @@ namespace {
 /// Returns whether a column contains text, also if a cell is a name like "0012".
 bool is_of_text(const std::string& title) {
   const RankingColumn* const column = find_in(ranking_columns(), &RankingColumn::name, title);
-  return title == "name" || title == "duty" || (column && column->unit == "text");
+  return title == "name" || title == "duty" || (column && !column->has_numbers());
 }
 
 Json json_of_cell(const std::string& text) {

@@ -17,7 +17,8 @@ struct StateWords;
 struct Warning;
 
 /// Returns a list with one object per row of a CSV text of this program, with the titles of the columns as keys. Cells with
-/// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Names and all other columns of text are always text.
+/// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Names and all other columns of text are
+/// always text.
 Json json_of_csv(const std::string& csv);
 
 /// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning). Cells of text columns are

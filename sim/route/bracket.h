@@ -33,7 +33,8 @@ class Surfaces {
   explicit Surfaces(const pipeline::Setup& setup);
   ~Surfaces();
 
-  /// Returns the distance from a point in the link's frame to its surface [m], below 0 inside a capsule, a box or a closed mesh; at most `most`.
+  /// Returns the distance from a point in the link's frame to its surface [m], below 0 inside a capsule, a box or a closed mesh; at
+  /// most `most`.
   double of_link(int link, const Vector3& point, double most) const;
   double of_cell(const Vector3& point, double most) const;
   bool has_shapes(int link) const;

@@ -50,7 +50,7 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
   scratch.write("other/my.yaml", indented_less(motion_block));
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: ../other/my.yaml\n"));
   CHECK(read_job(job).motion.name == "nod");
-  scratch.write("rig.yaml", "rig: {kind: torsion, twist_deg_per_m: 180}\n");  // of which a job needs no routing
+  scratch.write("rig.yaml", "rig: {kind: torsion, twist_deg_per_m: 180}\n");  // a job with a rig needs no routing
   CHECK(read_job(scratch.write("rig_job.yaml", "motion: ./rig.yaml\ndresspack: {cable: sensor_cable}\n")).motion.rig);
   const std::string text = edited(sample_job, motion_block, "motion: absent.yaml\n");
   const auto lost = scratch.write("jobs/lost.yaml", text);
