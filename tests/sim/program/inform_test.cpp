@@ -124,7 +124,7 @@ TEST_CASE("inform: speeds, accelerations and position levels") {
   CHECK(skips(r, "note: V= counts mm/s", false));
   CHECK(run(three, "MOVL C00000\n").problem().find("has no V=, and no SPEED before it") != std::string::npos);
   CHECK(run(three, "MOVL C00000\n", given({{"v", "250"}})).move(0).speed.tool.value() == Approx(0.25));
-  // A position level counts levels; the ranges CR=1.0 .. 6553.5 and ACC=20 .. 100 give the other units.
+  // A position level counts levels. The other units are assumed, because no manual was available; a warning says so.
   const Reading variables = run(
       three, "SET B000 3\nSET I000 250\nSET I001 60\nMOVL C00000 V=9.0 PL=B000\nMOVL C00001 V=9.0 CR=I000 ACC=I001\n");
   REQUIRE(variables.problem() == "no such problem");
