@@ -818,7 +818,7 @@ Value as_number(const Value& value, const Value& other) {
 
 }  // namespace
 
-/// Returns the value of a KRL expression that mixes comparisons with AND, EXOR or OR without parentheses. KUKA's manual
+/// Returns the value of a KRL expression that mixes comparisons with AND, EXOR or OR without parentheses. KRL
 /// compares after them: a == b AND c is a == (b AND c). Programs also rely on the order of other languages, (a == b) AND c.
 /// If both orders are possible and their values differ, the value is unknown.
 Value Interpreter::mixed(const Expression& expression) {
@@ -868,7 +868,7 @@ Value Interpreter::mixed(const Expression& expression) {
   if (!usual->value.known() || usual->value == manual->value) return usual->value;
   if (!manual->value.known()) return manual->value;
   return unknown_value(
-      "", fmt::format("is {} with comparisons after AND, EXOR and OR (KUKA's manual), and {} with "
+      "", fmt::format("is {} with comparisons after AND, EXOR and OR (KRL's priorities), and {} with "
                       "comparisons first; parentheses in a copy of the program decide",
                       manual->value.number != 0 ? "TRUE" : "FALSE", usual->value.number != 0 ? "TRUE" : "FALSE"));
 }

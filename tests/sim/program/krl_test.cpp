@@ -185,7 +185,7 @@ TEST_CASE("krl: comparisons come after AND, EXOR and OR in the manual, and befor
   // (FALSE == TRUE) AND FALSE is FALSE, FALSE == (TRUE AND FALSE) is TRUE.
   const Reading asked = decides("no == yes AND no");
   REQUIRE(asked.problems.size() == 1);
-  CHECK(asked.problem().find("is TRUE with comparisons after AND, EXOR and OR (KUKA's manual), and FALSE with "
+  CHECK(asked.problem().find("is TRUE with comparisons after AND, EXOR and OR (KRL's priorities), and FALSE with "
                              "comparisons first") != std::string::npos);
   CHECK(!holds("(no == yes) AND no"));
   CHECK(holds("no == (yes AND no)"));
