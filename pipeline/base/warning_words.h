@@ -65,6 +65,9 @@ class WarningsOfKind {
   /// units in which it would be within the limits.
   void number(const Where& where, std::string_view key, std::string_view of, double value, const Limits& limits,
               std::initializer_list<OtherUnit> units = {}, const Otherwise& otherwise = {}) const;
+  static constexpr double hours_of_day = 24;  ///< robots of plants run 40 h a week and more
+  /// Warns of hours per week of at most hours_of_day: they are probably hours of a day, or a share of the week.
+  void week(const Where& where, std::string_view key, std::string_view of, double hours) const;
 
  private:
   std::vector<Warning>* warnings_;

@@ -137,6 +137,18 @@ void WarningsOfKind::number(const Where& where, std::string_view key, std::strin
           cause, remedy);
 }
 
+void WarningsOfKind::week(const Where& where, std::string_view key, std::string_view of, double hours) const {
+  if (hours > hours_of_day) return;
+  const bool share = hours < 1;
+  const double meant = (share ? 168 : 5) * hours;
+  (*this)(where, fmt::format("{}{} is {:g} (limit more than {:g})", key, of, hours, hours_of_day),
+          share ? "a share of the week" : "hours of a day",
+          fmt::format("{}: {}; leave it if the robot runs so little", key,
+                      meant > hours_of_day
+                          ? fmt::format("{:g} if that was {}", meant, share ? "a share" : "per working day")
+                          : "80, or the hours of a week"));
+}
+
 WarningParts parts_of(std::string words) {
   WarningParts parts;
   const auto cut = [&](std::string_view mark, std::string& part) {

@@ -58,8 +58,6 @@ constexpr double gravity_spread = 0.01;     // relative: gravity varies by 0.5 %
 constexpr double down = 0.999;              // cosine of 2.6 deg, more than the slope of floors
 constexpr double most_failed_wires = 30;    // [%]: by then the other wires carry half as much current and load again
 constexpr double least_robot_life = 1000;   // [h]: half a year of one shift
-constexpr double least_week = 5;            // [h]: an hour per working day
-constexpr double hours_of_day = 24;         // robots in plants move 40 h a week or more
 constexpr double largest_endurance = 5e-3;  // polymers have 9e-3 at ten million cycles, metals a fifth of this limit
 constexpr double largest_factor = 30;       // 100 is a percentage; trials have 0.1 to 10
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: the width of a hose
@@ -1167,16 +1165,7 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
           if_kept(100 * value > 1, fmt::format("{}: {:g}", key, 100 * value), fmt::format("no {}, or per cent", key)));
   add.number({}, "fatigue.robot_life_hours", "", fatigue.robot_life_hours, {least_robot_life}, {},
              {"years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out"});
-  if (const double hours = fatigue.operating_hours_per_week; hours >= least_week && hours <= hours_of_day)
-    add({}, fmt::format("fatigue.operating_hours_per_week is {:g} (limit more than {:g})", hours, hours_of_day),
-        "hours of a day",
-        fmt::format(
-            "fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
-            5 * hours));
-  else
-    add.number({}, "fatigue.operating_hours_per_week", "", hours, {least_week}, {},
-               {"a share of the week, or another unit",
-                "fatigue.operating_hours_per_week: 80, or the hours of motion in a week"});
+  add.week({}, "fatigue.operating_hours_per_week", "", fatigue.operating_hours_per_week);
   add.number({}, "fatigue.endurance_strain", "", fatigue.endurance_strain, {0, largest_endurance}, {from_percent},
              {"another unit", "no fatigue.endurance_strain"});
   const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},

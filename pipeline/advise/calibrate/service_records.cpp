@@ -377,11 +377,10 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   std::map<std::string, std::size_t> known;  // (job) index of its test
   std::set<std::string> names;
   std::map<std::string, double> hours_per_week, robot_life;
-  std::vector<Warning> ages;
+  std::vector<Warning> ages, weeks;
   std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0, early_failed = 0;
   std::vector<std::string> hoses;  // one line per failure whose reason names a hose
   Where first_hose;
-  const Row* short_week = nullptr;
   std::map<std::string, std::size_t> of_reason;  // (reason) failures
   std::map<std::pair<Day, Day>, std::pair<const Row*, std::size_t>>
       on_day;  // (dates) first failure, number of failures
@@ -412,8 +411,9 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       early_failed += row.end == End::failed;
       continue;
     }
-    constexpr double day = 24;  // [h]: robots of plants run 40 h a week and more
-    if (!short_week && row.hours_per_week.value_or(2 * day) <= day) short_week = &row;
+    if (row.hours_per_week)
+      WarningsOfKind(weeks, WarningKind::calibration)
+          .week(row.where, "hours_per_week", fmt::format(" of '{}'", row.name), *row.hours_per_week);
     const double hours_per_day = row.hours_per_week.value_or(hours_per_week[row.job]) / 7;
     // At least half a day, for a dresspack that was removed on the day of its installation or on the first day of the records.
     const double entry_days = std::max(0.0, days_between(row.from, *since));
@@ -504,16 +504,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   for (std::size_t k = 0; k < std::min(most_ages, ages.size()); ++k) read.words += ages[k].line() + "\n";
   if (ages.size() > most_ages)
     read.words += fmt::format("{} further rows have unlikely ages.\n", ages.size() - most_ages);
-  if (short_week)
-    read.words +=
-        warning_of(WarningKind::calibration, short_week->where.text(),
-                   fmt::format("hours_per_week of '{}' is {:g} (limit more than 24)", short_week->name,
-                               *short_week->hours_per_week),
-                   "hours of a day",
-                   fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
-                               5 * *short_week->hours_per_week))
-            .line() +
-        "\n";
+  if (!weeks.empty()) read.words += weeks.front().line() + "\n";
   if (!hoses.empty())
     read.words +=
         warning_of(WarningKind::calibration, first_hose.text(),

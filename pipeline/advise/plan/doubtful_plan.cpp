@@ -21,8 +21,6 @@ namespace {
 constexpr double least_percent = 1;  // of the time: 48 minutes of a week of 80 hours
 // sum of the percent of repeats of all programs, if shares were written instead of per cent
 constexpr double shares_at_most = 1.5;
-constexpr double least_week = 5;                    // [h]: an hour per working day
-constexpr double day = 24;                          // [h]: robots of plants run 40 h a week and more
 constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
@@ -30,9 +28,6 @@ constexpr double rounded_percent = 1.5;             // rounding error of three p
 
 class Doubts {
  public:
-  void add(const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
-    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
-  }
   void of(const Duty& duty) {
     double repeats = 0;
     bool per_shift = false, by_repeats = false;
@@ -59,12 +54,11 @@ class Doubts {
                       duty.name, *duty.repeats_per_hour),
           "a number that belongs to a program",
           fmt::format("repeats_per_hour: {:g} in an entry of programs", *duty.repeats_per_hour));
-    week(duty.where, fmt::format("hours_per_week of duty '{}'", duty.name), duty.hours_per_week);
-    if (per_shift && (duty.shift_hours > most_shift || duty.shift_hours < least_shift))
-      add(duty.where,
-          fmt::format("shift_hours of duty '{}' is {:g} (limit {:g} .. {:g})", duty.name, duty.shift_hours, least_shift,
-                      most_shift),
-          duty.shift_hours > most_shift ? "hours of a week" : "a share of a day", "shift_hours: 8");
+    const std::string name = fmt::format(" of duty '{}'", duty.name);
+    add.week(duty.where, "hours_per_week", name, duty.hours_per_week);
+    if (per_shift)
+      add.number(duty.where, "shift_hours", name, duty.shift_hours, {least_shift, most_shift}, {},
+                 {duty.shift_hours > most_shift ? "hours of a week" : "a share of a day", "shift_hours: 8"});
     for (const PastDuty& past : duty.history)
       if (past.hours.value_or(0) > longest_history)
         add(past.where,
@@ -80,7 +74,8 @@ class Doubts {
     int new_ones = 0, of_thousands = 0, short_weeks = 0;
     const auto [low_planned, high_planned] = std::ranges::minmax_element(fleet.rows, {}, &Installed::planned_cost);
     for (const Installed& row : fleet.rows) {
-      if (row.hours_per_week && *row.hours_per_week <= day && short_weeks++ == 0) short_week = &row;
+      if (row.hours_per_week && *row.hours_per_week <= WarningsOfKind::hours_of_day && short_weeks++ == 0)
+        short_week = &row;
       if (today - row.since > oldest_likely)
         add(row.where,
             fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name, (today - row.since).count(),
@@ -101,8 +96,8 @@ class Doubts {
     }
     const auto more = [](int count) { return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string(); };
     if (short_week)
-      week(short_week->where, fmt::format("hours_per_week of '{}'{}", short_week->name, more(short_weeks)),
-           *short_week->hours_per_week);
+      add.week(short_week->where, "hours_per_week", fmt::format(" of '{}'{}", short_week->name, more(short_weeks)),
+               *short_week->hours_per_week);
     if (thousands)
       add(thousands->where,
           fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g}){}", thousands->name,
@@ -123,12 +118,13 @@ class Doubts {
   std::vector<Warning> warnings;
 
  private:
+  const WarningsOfKind add{warnings, WarningKind::motion};
+
   void of(const DutyProgram& program) {
     const auto share = [&](const char* key, double value) {
-      if (value > 0 && value < least_percent)
-        add(program.where,
-            fmt::format("{} of '{}' is {:g} (limit {:g} or more)", key, program.job, value, least_percent),
-            "a share instead of a percentage", fmt::format("{}: {:g} if that was a share", key, 100 * value));
+      if (value > 0)
+        add.number(program.where, key, fmt::format(" of '{}'", program.job), value, {least_percent},
+                   {{100, "a share instead of a percentage", "a share"}});
     };
     share("percent_of_time", program.percent_of_time.value_or(0));
     share("deviation_percent", program.deviation_percent);
@@ -139,17 +135,6 @@ class Doubts {
     if (number == 0)
       add(program.where, fmt::format("'{}' never runs in its duty: its number of repeats is 0", program.job),
           "a number that is not known", "the number of repeats, or no entry of this program");
-  }
-  void week(const Where& where, const std::string& key, double hours) {
-    if (hours < least_week)
-      add(where, fmt::format("{} is {:g} (limit {:g} or more)", key, hours, least_week),
-          "hours of a day, or a share of the week",
-          fmt::format("hours_per_week: {:g} if that was {}", hours < 1 ? 168 * hours : 5 * hours,
-                      hours < 1 ? "a share" : "per working day"));
-    else if (hours <= day)
-      add(where, fmt::format("{} is {:g} (limit more than {:g})", key, hours, day), "hours of a day",
-          fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
-                      5 * hours));
   }
   /// Returns the letters in lower case and the digits of a name.
   static std::string plain(const std::string& name) {
