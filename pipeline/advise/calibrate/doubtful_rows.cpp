@@ -35,45 +35,35 @@ class Doubts {
   void of(const ObservedTest& test) {
     const Observation& row = test.observation;
     if (!row.service.empty()) return;  // the table was checked when it was read
-    if (row.cycles && *row.cycles < fewest_cycles)
-      add(test, "cycles", *row.cycles, fmt::format("{:g} or more", fewest_cycles), "millions or thousands of cycles",
-          fmt::format("cycles: {:g} if that was millions", 1e6 * *row.cycles));
-    if (row.hours && *row.hours < fewest_hours)
-      add(test, "hours", *row.hours, fmt::format("{:g} or more", fewest_hours), "years, or thousands of hours",
-          fmt::format("hours: {:g} if that was thousands of hours", 1e3 * *row.hours));
-    if (row.hours && *row.hours > likely_hours)
-      add(test, "hours", *row.hours, fmt::format("{:g} or less: 20 years day and night", likely_hours),
-          "minutes, seconds or cycles",
-          fmt::format("hours: {:.4g} if that was minutes, or cycles: {:g}", *row.hours / 60, *row.hours));
-    if (row.specimens > most_specimens)
-      add(test, "specimens", row.specimens, fmt::format("{:g} or less", most_specimens), "cycles in the wrong key",
-          "the number of pieces that were tested");
-    if (row.cycles_per_repeat > most_cycles_per_repeat || row.cycles_per_repeat < fewest_cycles_per_repeat)
-      add(test, "cycles_per_repeat", row.cycles_per_repeat,
-          fmt::format("{:g} .. {:g}", fewest_cycles_per_repeat, most_cycles_per_repeat),
-          "a number per minute or per hour", "cycles_per_repeat: 1, or 2 if single strokes are counted");
-    if (row.is_life() && row.unshared_log10 > largest_unshared)
-      add(test, "unshared_log10", row.unshared_log10, fmt::format("{:g} or less: a factor of 10", largest_unshared),
-          "a factor instead of its logarithm",
-          fmt::format("unshared_log10: {:.2g} if that was a factor", std::log10(row.unshared_log10)));
-    if (row.is_life() && row.unshared_log10 < least_unshared)
-      add(test, "unshared_log10", row.unshared_log10, fmt::format("{:g} or more: 1 %", least_unshared),
-          "a share instead of a logarithm", "unshared_log10: 0.1 for your own cable in a test that you know");
-    if (row.stiffness && (*row.stiffness > stiffest || *row.stiffness < softest))
-      add(test, "stiffness_Nm2", *row.stiffness, fmt::format("{:g} .. {:g}", softest, stiffest),
-          *row.stiffness > stiffest ? "N mm2 instead of N m2" : "another unit",
-          *row.stiffness > stiffest ? fmt::format("stiffness_Nm2: {:g} if that was N mm2", 1e-6 * *row.stiffness)
-                                    : "stiffness_Nm2: the moment in N m times the bend radius in m");
+    if (row.cycles)
+      number(test, "cycles", *row.cycles, {fewest_cycles}, {{1e6, "millions or thousands of cycles", "millions"}});
+    if (row.hours)
+      number(test, "hours", *row.hours, {fewest_hours, likely_hours, ": 20 years day and night"},
+             {{1e3, "years, or thousands of hours", "thousands of hours"},
+              {1 / 60.0, "minutes, seconds or cycles", "minutes"}},
+             {.also = *row.hours > likely_hours ? fmt::format(", or cycles: {:g}", *row.hours) : ""});
+    number(test, "specimens", row.specimens, {0, most_specimens}, {},
+           {"cycles in the wrong key", "the number of pieces that were tested"});
+    number(test, "cycles_per_repeat", row.cycles_per_repeat, {fewest_cycles_per_repeat, most_cycles_per_repeat}, {},
+           {"a number per minute or per hour", "cycles_per_repeat: 1, or 2 if single strokes are counted"});
+    if (const double unshared = row.unshared_log10; row.is_life())
+      number(test, "unshared_log10", unshared, {least_unshared, largest_unshared, ": 1 % .. a factor of 10"},
+             {{std::log10(unshared) / unshared, "a factor instead of its logarithm", "a factor"}},
+             {"a share instead of a logarithm", "unshared_log10: 0.1 for your own cable in a test that you know"});
+    if (row.stiffness)
+      number(test, "stiffness_Nm2", *row.stiffness, {softest, stiffest}, {{1e-6, "N mm2 instead of N m2", "N mm2"}},
+             {"another unit", "stiffness_Nm2: the moment in N m times the bend radius in m"});
     if (!row.bending.empty()) table(test);
-    if (!row.is_life() && row.noise_percent < least_noise)
-      add(test, "noise_percent", row.noise_percent, fmt::format("{:g} or more", least_noise),
-          "a share instead of per cent",
-          fmt::format("noise_percent: {:g} if that was a share", 100 * row.noise_percent));
-    if (row.stiffness || row.decrement) curvature(test);
-    if (row.decrement && *row.decrement > largest_decrement)
-      add(test, "decrement", *row.decrement, fmt::format("{:g} or less", largest_decrement),
-          "per cent, or the ratio of two swings instead of its logarithm",
-          fmt::format("decrement: {:.3g} if that was the ratio", std::log(*row.decrement)));
+    if (!row.is_life())
+      number(test, "noise_percent", row.noise_percent, {least_noise},
+             {{100, "a share instead of per cent", "a share"}});
+    if (const double bend = row.at_curvature; row.stiffness || row.decrement)
+      number(test, "at_curvature_1_per_m", bend, {widest, tightest},
+             {{1e3 / (bend * bend), "a radius in mm", "a radius in mm"}, {1e3, "1/mm instead of 1/m", "1/mm"}});
+    if (row.decrement)
+      number(test, "decrement", *row.decrement, {0, largest_decrement},
+             {{std::log(*row.decrement) / *row.decrement,
+               "per cent, or the ratio of two swings instead of its logarithm", "the ratio"}});
   }
 
   void of(const ObservedTest& test, const ObservedTest& earlier) {
@@ -83,7 +73,7 @@ class Doubts {
         row.decrement == other.decrement && row.bending == other.bending && row.at_curvature == other.at_curvature &&
         row.outcome == other.outcome && row.cycles_per_repeat == other.cycles_per_repeat &&
         row.service == other.service) {
-      warn(test, fmt::format("the observation and the job of '{}' are those of '{}'", row.name, other.name),
+      warn(test.where, fmt::format("the observation and the job of '{}' are those of '{}'", row.name, other.name),
            "a row that was copied",
            row.is_life() ? "one of the two rows; with specimens: 2 if two were tested" : "one of the two rows");
       return;
@@ -95,7 +85,7 @@ class Doubts {
     const Observation& lower = &upper == &row ? other : row;
     if (upper.outcome == ObservedEnd::broken_by && bounds_below(lower.outcome) &&
         lower.outcome != ObservedEnd::rating && observed_life(lower) > observed_life(upper))
-      warn(test,
+      warn(test.where,
            fmt::format("'{}' lived {}, and of the same test '{}' states that no specimen lived longer than {}",
                        lower.name, observed_text(lower), upper.name, observed_text(upper)),
            "exchanged outcomes", fmt::format("outcome: broken, or run_out, of '{}'", upper.name));
@@ -110,42 +100,33 @@ class Doubts {
     const BendingPoint tight = *std::max_element(
         points.begin(), points.end(),
         [](const BendingPoint& a, const BendingPoint& b) { return std::abs(a.curvature) < std::abs(b.curvature); });
-    if (points.size() > most_points)
-      add(test, "the number of points of the curve", double(points.size()), fmt::format("{} or less", most_points),
-          "all readings of a testing machine, with which the result takes long",
-          "means of neighbouring readings, 20 to 100 over the loop");
+    number(test, "the number of points of the curve", double(points.size()), {0, most_points}, {},
+           {"all readings of a testing machine, with which the result takes long",
+            "means of neighbouring readings, 20 to 100 over the loop"});
     const BendingPoint& first = points.front();
     const double first_bend = std::abs(first.curvature / tight.curvature);
     double largest_moment = 0;
     for (const BendingPoint& point : points) largest_moment = std::max(largest_moment, std::abs(point.moment));
-    if (points.size() > few_points && first_bend > from_straight)
-      add(test, "the first curvature_1_per_m over the largest one", first_bend,
-          fmt::format("{:g} or less: a test begins with a straight cable", from_straight),
-          "a sorted table, or one without its first branch", "all readings in the order of the test, from straight");
-    if (first_bend <= straight && std::abs(first.moment) > largest_zero * largest_moment)
-      add(test, "the moment of the straight cable over the largest one", std::abs(first.moment) / largest_moment,
-          fmt::format("{:g} or less", largest_zero),
-          "a scale that was not set to zero, or a cable that is bent by itself",
-          fmt::format("each moment_Nm less {:.3g}", first.moment));
+    if (points.size() > few_points)
+      number(
+          test, "the first curvature_1_per_m over the largest one", first_bend,
+          {0, from_straight, ": a test begins with a straight cable"}, {},
+          {"a sorted table, or one without its first branch", "all readings in the order of the test, from straight"});
+    if (first_bend <= straight && largest_moment > 0)
+      number(test, "the moment of the straight cable over the largest one", std::abs(first.moment) / largest_moment,
+             {0, largest_zero}, {},
+             {"a scale that was not set to zero, or a cable that is bent by itself",
+              fmt::format("each moment_Nm less {:.3g}", first.moment)});
     const double curvature = std::abs(tight.curvature), stiffness = std::abs(tight.moment / tight.curvature);
     if (curvature > tightest || curvature < widest)
-      add(test, "the largest curvature_1_per_m", curvature, fmt::format("{:g} .. {:g}", widest, tightest),
-          curvature < widest ? "1/mm instead of 1/m, or exchanged columns" : "a radius in mm, or exchanged columns",
-          "curvature_1_per_m: 1000 over the bend radius in mm");
-    else if (stiffness > stiffest || (stiffness < softest && stiffness > 0))
-      add(test, "the largest moment over its curvature, in N m2,", stiffness,
-          fmt::format("{:g} .. {:g}", softest, stiffest), stiffness > stiffest ? "N mm instead of N m" : "another unit",
-          stiffness > stiffest ? fmt::format("moment_Nm: {:g} instead of {:g}", 1e-3 * tight.moment, tight.moment)
-                               : "moment_Nm in N m");
-  }
-  void curvature(const ObservedTest& test) {
-    const double value = test.observation.at_curvature;
-    if (value > tightest)
-      add(test, "at_curvature_1_per_m", value, fmt::format("{:g} .. {:g}", widest, tightest), "a radius in mm",
-          fmt::format("at_curvature_1_per_m: {:.3g} if that was a radius in mm", 1e3 / value));
-    if (value < widest)
-      add(test, "at_curvature_1_per_m", value, fmt::format("{:g} .. {:g}", widest, tightest), "1/mm instead of 1/m",
-          fmt::format("at_curvature_1_per_m: {:g} if that was 1/mm", 1e3 * value));
+      number(test, "the largest curvature_1_per_m", curvature, {widest, tightest}, {},
+             {curvature < widest ? "1/mm instead of 1/m, or exchanged columns" : "a radius in mm, or exchanged columns",
+              "curvature_1_per_m: 1000 over the bend radius in mm"});
+    else if (stiffness > 0)
+      number(test, "the largest moment over its curvature, in N m2,", stiffness, {softest, stiffest}, {},
+             {stiffness > stiffest ? "N mm instead of N m" : "another unit",
+              stiffness > stiffest ? fmt::format("moment_Nm: {:g} instead of {:g}", 1e-3 * tight.moment, tight.moment)
+                                   : "moment_Nm in N m"});
   }
 
   static std::string jobs_of(const ObservedTest& test) {
@@ -155,13 +136,12 @@ class Doubts {
     return a.observation.criterion == b.observation.criterion && jobs_of(a) == jobs_of(b);
   }
 
-  void add(const ObservedTest& test, const char* key, double value, const std::string& limit, const std::string& cause,
-           const std::string& remedy) {
-    warn(test, fmt::format("{} of '{}' is {:.6g} (limit {})", key, test.observation.name, value, limit), cause, remedy);
+  void number(const ObservedTest& test, const char* key, double value, const Limits& limits,
+              std::initializer_list<OtherUnit> units, const Otherwise& otherwise = {}) const {
+    warn.number(test.where, key, fmt::format(" of '{}'", test.observation.name), value, limits, units, otherwise);
   }
-  void warn(const ObservedTest& test, const std::string& what, const std::string& cause, const std::string& remedy) {
-    warnings.push_back(warning_of(WarningKind::calibration, test.where.text(), what, cause, remedy));
-  }
+
+  const WarningsOfKind warn{warnings, WarningKind::calibration};
 };
 
 }  // namespace
