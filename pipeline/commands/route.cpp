@@ -98,19 +98,11 @@ ScreenedList proposed(const Draft& draft, const RouteOptions& options, double fa
   const fs::path job = folder / "draft.yaml";
   write_text_if_changed(job, with_mark(to_yaml(document), Mark::yaml));
   const PassingFile passing("screening.h5");
-  std::vector<std::string> arguments{job.string(),
-                                     "--propose",
-                                     std::to_string(trials),
-                                     "--tried",
-                                     std::to_string(options.tried),
-                                     "--short-runs",
-                                     std::to_string(options.short_runs),
-                                     "--further",
-                                     std::to_string(further),
-                                     "--seed",
-                                     std::to_string(options.seed),
-                                     "-o",
-                                     passing.path().string()};
+  std::vector<std::string> arguments =
+      parts_between(fmt::format("--propose {} --tried {} --short-runs {} --further {} --seed {}", trials, options.tried,
+                                options.short_runs, further, options.seed),
+                    " ");
+  arguments.insert(arguments.end(), {job.string(), "-o", passing.path().string()});
   if (options.quiet) arguments.push_back("--quiet");
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
