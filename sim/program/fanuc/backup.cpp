@@ -267,14 +267,12 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
 
 Backup fanuc_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
   const FanucFolder found = fanuc_folder(folder_of_listings(folder, files));
-  Backup backup{Language::fanuc, {}, routine};
+  Backup backup{Language::fanuc, found.listings, routine};
   if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(found.calls), "program");
   const std::string start = lower_case(backup.routine.substr(0, backup.routine.find('(')));
-  for (const auto* list : {&found.listings, &found.variables})
-    for (const fs::path& file : *list) {
-      const bool first = lower_case(file.stem().string()) == start && is_listing(file);
-      backup.files.insert(first ? backup.files.begin() : backup.files.end(), file);
-    }
+  backup.files.insert(backup.files.end(), found.variables.begin(), found.variables.end());
+  for (const fs::path& file : found.listings)
+    if (lower_case(file.stem().string()) == start) put_first(file, backup);
   return backup;
 }
 

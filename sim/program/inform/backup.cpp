@@ -8,7 +8,7 @@ namespace dresslife::sim {
 namespace fs = std::filesystem;
 
 Backup inform_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
-  Backup backup{Language::inform, {}, routine};
+  Backup backup{Language::inform, files, routine};
   CallGraph graph;
   std::map<std::string, fs::path> file_of;
   for (const fs::path& file : files)
@@ -18,10 +18,7 @@ Backup inform_backup(const fs::path& folder, const std::vector<fs::path>& files,
       graph[calls.name] = std::move(calls);
     }
   if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(graph), "job");
-  const auto first = file_of.find(lower_case(backup.routine));
-  if (first != file_of.end()) backup.files.push_back(first->second);  // the first file gives the motion its name
-  for (const fs::path& file : files)
-    if (first == file_of.end() || file != first->second) backup.files.push_back(file);
+  put_first(file_of[lower_case(backup.routine)], backup);
   return backup;
 }
 

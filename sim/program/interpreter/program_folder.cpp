@@ -62,4 +62,8 @@ std::string only_start(const fs::path& folder, std::vector<std::string> choices,
                                          more ? fmt::format(" and {} more", more) : ""));
 }
 
+void put_first(fs::path file, Backup& backup) {
+  if (std::erase(backup.files, file)) backup.files.insert(backup.files.begin(), std::move(file));
+}
+
 }  // namespace dresslife::sim

@@ -33,5 +33,7 @@ bool moves(const std::string& program, const CallGraph& graph);
 std::vector<std::string> uncalled_programs(const CallGraph& graph);
 /// Returns the only choice. Errors: InputError if `choices` is empty ("holds no WHAT that moves") or has several entries.
 std::string only_start(const std::filesystem::path& folder, std::vector<std::string> choices, const char* what);
+/// Makes a file of the backup its first one, which gives the motion its name. Other paths have no effect.
+void put_first(std::filesystem::path file, Backup& backup);
 
 }  // namespace dresslife::sim

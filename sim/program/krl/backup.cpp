@@ -96,16 +96,8 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
       }
   }
   check_one_robot(folder, backup.files);
-  const auto put_first = [&](const std::string& name) {  // the first file names the motion
-    std::stable_partition(backup.files.begin(), backup.files.end(),
-                          [&](const fs::path& file) { return is_program(file) && file_of[name] == file; });
-  };
-  if (!routine.empty()) {
-    put_first(lower_case(routine.substr(0, routine.find_first_of("( "))));
-    return backup;
-  }
-  backup.routine = only_start(folder, starts(graph), "KUKA program");
-  put_first(backup.routine);
+  if (routine.empty()) backup.routine = only_start(folder, starts(graph), "KUKA program");
+  put_first(file_of[lower_case(backup.routine.substr(0, backup.routine.find_first_of("( ")))], backup);
   return backup;
 }
 
