@@ -4,6 +4,9 @@
 #include <atomic>
 #include <cassert>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
 
@@ -204,15 +207,10 @@ std::vector<std::string> layer_names(const pipeline::Dresspack& dresspack) {
 }
 
 std::string layer_of(const std::string& component, const std::vector<std::string>& layer_names) {
-  std::string layer;
-  for (std::size_t begin = 0; begin <= component.size();) {
-    const std::size_t end = std::min(component.find('/', begin), component.size());
-    const std::string part = component.substr(begin, end - begin);
-    const bool is_layer = std::ranges::find(layer_names, part) != layer_names.end();
-    layer += (begin > 0 ? "/" : "") + (is_layer ? part : without_number(part));
-    begin = end + 1;
-  }
-  return layer;
+  const auto layer_of_part = [&](const std::string& part) {
+    return std::ranges::find(layer_names, part) != layer_names.end() ? part : without_number(part);
+  };
+  return pipeline::joined(pipeline::mapped(pipeline::parts_between(component, "/"), layer_of_part), "/");
 }
 
 std::vector<double> strain_between_reversals(const std::vector<Reversal>& reversals, std::size_t samples) {

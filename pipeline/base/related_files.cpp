@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
 #include "pipeline/base/text.h"
@@ -20,11 +21,7 @@ std::string stem_of(const fs::path& file) { return lower_case(file.stem().string
 
 std::string without_comments(const std::string& text) {
   std::string kept;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    kept += text.substr(begin, std::min(text.find(';', begin), end) - begin) + '\n';
-    begin = end + 1;
-  }
+  for (const std::string& line : parts_between(text, "\n")) kept += line.substr(0, line.find(';')) + '\n';
   return kept;
 }
 
@@ -71,13 +68,7 @@ std::string without_contents(std::string_view line) {
 
 /// Returns the words of each line, without words in brackets and behind '='.
 std::vector<std::vector<std::string>> declarations(const std::string& text) {
-  std::vector<std::vector<std::string>> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(words_of(without_contents(std::string_view(text).substr(begin, end - begin))));
-    begin = end + 1;
-  }
-  return lines;
+  return mapped(parts_between(text, "\n"), [](const std::string& line) { return words_of(without_contents(line)); });
 }
 
 bool has(const std::vector<std::string>& words, const char* word) {

@@ -62,15 +62,11 @@ std::string keys_page() {
 /// "components[].count".
 std::string as_in_manual(const std::string& key) {
   std::string path;
-  for (std::size_t at = 0; at <= key.size();) {
-    const std::size_t end = std::min(key.find('.', at), key.size());
-    const std::string part = key.substr(at, end - at);
+  for (const std::string& part : parts_between(key, "."))
     if (!part.empty() && part.find_first_not_of("0123456789") == std::string::npos)
       path += "[]";
     else
       path += (path.empty() ? "" : ".") + part;
-    at = end + 1;
-  }
   return path.starts_with("job.") ? path.substr(4) : path;
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/text.h"
 #include "pipeline/resolve/data_sheet.h"
 #include "pipeline/settings/units.h"
 
@@ -103,15 +105,11 @@ std::string left_out_of(const Node& dresspack, const Node& part) {
   const Node* const estimates = dresspack.find("estimates");
   std::set<std::string> names;
   add_names(part, names);
-  std::string found;
-  for (std::string rest = estimates ? estimates->text : ""; !rest.empty();) {
-    const std::string entry = rest.substr(0, rest.find("; "));
-    rest.erase(0, entry.size() + 2);
-    if (std::ranges::any_of(
-            names, [&](const std::string& name) { return entry.starts_with(fmt::format("data_sheet of {}: ", name)); }))
-      found += (found.empty() ? "" : "; ") + entry;
-  }
-  return found;
+  const auto is_of_part = [&](const std::string& entry) {
+    return std::ranges::any_of(
+        names, [&](const std::string& name) { return entry.starts_with(fmt::format("data_sheet of {}: ", name)); });
+  };
+  return joined(filtered(parts_between(estimates ? estimates->text : "", "; "), is_of_part), "; ");
 }
 
 Node expanded(Node dresspack) {

@@ -61,14 +61,4 @@ void Problems::finish(const std::string& first_file) const {
   throw InputErrors(std::move(sorted));
 }
 
-std::vector<std::string> problem_lines(const std::string& words) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin <= words.size();) {
-    const std::size_t end = std::min(words.find('\n', begin), words.size());
-    lines.push_back(words.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
 }  // namespace dresslife::pipeline

@@ -66,7 +66,4 @@ class Problems {
   bool more_ = false;  ///< there are more problems than are stored
 };
 
-/// Returns the lines of an InputError's message, one for each problem.
-std::vector<std::string> problem_lines(const std::string& words);
-
 }  // namespace dresslife::pipeline

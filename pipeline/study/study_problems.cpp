@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/text.h"
 #include "pipeline/job/job.h"
-#include "pipeline/settings/problems.h"
 #include "pipeline/study/study.h"
 
 namespace dresslife::pipeline {
 
 std::string first_problem(const StudyJob& job) {
-  const std::vector<std::string> lines = problem_lines(job.failure);
+  const std::vector<std::string> lines = parts_between(job.failure, "\n");
   return lines.size() == 1
              ? job.failure
              : fmt::format("{} (and {} more problems, listed below the jobs)", lines.front(), lines.size() - 1);
@@ -25,13 +25,14 @@ std::string problem_words(const Study& study) {
   std::vector<std::string> lines;
   std::map<std::string, std::vector<std::string>> jobs_of;
   for (const StudyJob& job : study.jobs)
-    for (const std::string& line : job.failure.empty() ? std::vector<std::string>{} : problem_lines(job.failure)) {
+    for (const std::string& line :
+         job.failure.empty() ? std::vector<std::string>{} : parts_between(job.failure, "\n")) {
       std::vector<std::string>& jobs = jobs_of[line];
       if (jobs.empty()) lines.push_back(line);
       jobs.push_back(job.name);
     }
   const bool complete = std::ranges::all_of(study.jobs, [&](const StudyJob& job) {
-    return job.failure.empty() || (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
+    return job.failure.empty() || (parts_between(job.failure, "\n").size() == 1 && jobs_of[job.failure].size() == 1);
   });
   if (complete) return "";
   std::string text;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "pipeline/base/order.h"
+#include "pipeline/base/text.h"
 #include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
@@ -155,18 +156,16 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
                                                       const std::string& wanted) {
   if (!wanted.empty()) {
     std::vector<std::size_t> order;
-    for (std::size_t begin = 0; begin <= wanted.size();) {
-      const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
-      const auto without_blanks = [](std::string text) {
-        std::erase(text, ' ');
-        return text;
-      };
-      const std::string name = without_blanks(wanted.substr(begin, end - begin));
+    const auto without_blanks = [](std::string text) {
+      std::erase(text, ' ');
+      return text;
+    };
+    for (const std::string& part : pipeline::parts_between(wanted, ",")) {
+      const std::string name = without_blanks(part);
       const auto found =
           std::ranges::find_if(names, [&](const std::string& n) { return same_word(without_blanks(n), name); });
       if (found == names.end()) return {};
       order.push_back(static_cast<std::size_t>(found - names.begin()));
-      begin = end + 1;
     }
     std::vector<std::size_t> sorted = order;
     std::ranges::sort(sorted);

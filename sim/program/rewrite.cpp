@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/text.h"
 #include "sim/program/fanuc/run.h"
@@ -152,10 +154,8 @@ class Lines {
 }
 
 std::string in_degrees(const std::vector<double>& joints) {
-  std::string list;
-  for (const double angle : joints)
-    list += fmt::format("{}{}", list.empty() ? "" : ",", pipeline::short_decimal(angle / degree, 6));
-  return list;
+  return pipeline::joined(
+      pipeline::mapped(joints, [](double angle) { return pipeline::short_decimal(angle / degree, 6); }), ",");
 }
 
 /// Returns the number times `factor`: "500" -> "350"; std::nullopt: not a number.

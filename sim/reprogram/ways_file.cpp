@@ -1,5 +1,6 @@
 #include "sim/reprogram/ways_file.h"
 
+#include "pipeline/base/joined.h"
 #include "pipeline/settings/fields.h"
 #include "sim/reprogram/patched_program.h"
 
@@ -16,12 +17,6 @@ std::vector<double> cost_of_lines(const std::filesystem::path& life_file) {
   return cost;
 }
 
-std::string one_below_the_other(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-  return text;
-}
-
 }  // namespace
 
 void write_ways(const pipeline::Job& job, const std::filesystem::path& life_file, std::size_t most_lines,
@@ -36,7 +31,7 @@ void write_ways(const pipeline::Job& job, const std::filesystem::path& life_file
     try {
       PatchedProgram made = patched(job, read, way);
       whats.push_back(way.what);
-      lines.push_back(one_below_the_other(way.lines));
+      lines.push_back(pipeline::joined(way.lines, "\n"));
       motions.push_back(to_yaml(pipeline::echo_fields(made.motion)));
       patches.push_back(std::move(made.patch));
     } catch (const pipeline::InputError& error) {

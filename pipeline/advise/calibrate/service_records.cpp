@@ -14,6 +14,7 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/likely_age.h"
@@ -340,10 +341,7 @@ std::vector<Program> programs_of(const Row& row) {
   if (!text.ends_with('%')) return {{text, 1}};
   std::vector<Program> programs;
   double sum = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t plus = std::min(text.find(" + ", begin), text.size());
-    std::string part = text.substr(begin, plus - begin);
-    begin = plus + 3;
+  for (std::string part : parts_between(text, " + ")) {
     while (!part.empty() && (part.back() == ' ' || part.back() == '%')) part.pop_back();
     const std::size_t blank = part.rfind(' ');
     const std::optional<double> percent = blank == part.npos ? std::nullopt : exported_number(part.substr(blank + 1));

@@ -237,9 +237,7 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
 
 std::vector<Window> windows_from(const std::string& text, Day today) {
   std::vector<Window> windows;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string one = text.substr(begin, end - begin);
+  for (const std::string& one : parts_between(text, ",")) {
     const std::size_t dots = one.find("..");
     const auto day_in = [](std::string_view part) { return needed_day(std::string(trimmed(part))); };
     const Day first = day_in(std::string_view(one).substr(0, dots));
@@ -255,7 +253,6 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
                                           : "give windows after today, or another --today");
     if (windows.back().last > today + longest_plan)
       throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");
-    begin = end + 1;
   }
   return windows;
 }

@@ -3,6 +3,8 @@
 #include <set>
 #include <sstream>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/settings/document.h"
 #include "sim/program/interpreter/encoding.h"
@@ -156,9 +158,7 @@ void drop_copies(const fs::path& folder, std::set<fs::path>& tasks) {
 }
 
 std::string names_of(const std::set<fs::path>& paths) {
-  std::string names;
-  for (const fs::path& path : paths) names += (names.empty() ? "" : ", ") + path.string();
-  return names;
+  return pipeline::joined(pipeline::mapped(paths, [](const fs::path& path) { return path.string(); }), ", ");
 }
 
 /// Selects one of several lists of modules: the only one in the folder itself, else the only one in the controller's

@@ -1,5 +1,6 @@
 #include "pipeline/settings/problems.h"
 
+#include "pipeline/base/text.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
@@ -20,7 +21,8 @@ Said said_of(const std::vector<std::pair<std::string, std::string>>& changes,
   for (const auto& [from, to] : changes) text = edited(text, from, to);
   Said said;
   const std::string mark = ": error: ";
-  for (const std::string& line : problem_lines(message_of([&] { job_from(parse_yaml(text, "job.yaml"), sets); }))) {
+  for (const std::string& line :
+       parts_between(message_of([&] { job_from(parse_yaml(text, "job.yaml"), sets); }), "\n")) {
     const std::size_t at = line.find(mark);
     REQUIRE(at != std::string::npos);
     said.places.push_back(line.substr(0, at));
@@ -81,7 +83,7 @@ TEST_CASE("problems: the same line is reported once, and no more lines than a pe
   CHECK_FALSE(problems.touch("b"));
   for (int i = 0; i < 1000; ++i) problems.add({"b.yaml", i + 1, 1}, fmt::format("problem {}", i), "");
   problems.add({"a.yaml", 2, 1}, "beyond what is kept", "");
-  const std::vector<std::string> lines = problem_lines(message_of([&] { problems.finish("a.yaml"); }));
+  const std::vector<std::string> lines = parts_between(message_of([&] { problems.finish("a.yaml"); }), "\n");
   CHECK(lines.size() == 101);
   CHECK(lines.front() == "a.yaml:3:1: error: is wrong; correct it");
   CHECK(lines.back() == "a.yaml: error: only the first 100 problems are shown; correct them first");
