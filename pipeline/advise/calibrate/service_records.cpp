@@ -236,10 +236,7 @@ class Export {
   }
 
   Row row_of(const CsvRow& cells) const {
-    if (cells.size() != titles_.size())
-      throw InputError(reader_.where(cells.back()),
-                       fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
-                       "fill or quote its cells");
+    check_width(reader_, titles_, cells);
     Row row;
     row.line = reader_.line(), row.where = reader_.where(*cell(cells, robot)), row.name = text(cells, robot);
     if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");

@@ -135,7 +135,7 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
       {titles + "A,a,2024-02-03,,failed\n", "plant.csv:2:16: error: the dresspack has a reason ('failed') and no date",
        "write when"},
       {titles + "A,a,2024-02-03\n", "plant.csv:2:5: error: a row of 3 cells (the table has 5 columns)",
-       "fill or quote"},
+       "fill its cells"},
       {titles + ",a,2024-02-03,,\n", "plant.csv:2:1: error: the robot has no name", "fill"},
       {titles + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-02,,\n",
        "plant.csv:3:1: error: 'A, a' is in use from 2025-01-02 on, and line 2 has it until 2025-01-03", "there twice"},
