@@ -99,30 +99,21 @@ std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& str
   std::vector<VariedStrains> all(z.size() / in_row);
   for (std::size_t v = 0; v < all.size(); ++v)
     std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * in_row), in_row, all[v].z.begin());
-  if (strain.has("/variation/inside")) {
-    const auto inside = strain.read<std::int32_t>("/variation/inside");
-    for (std::size_t v = 0; v < all.size(); ++v) {
-      if (inside[v] < 0 || inside[v] >= std::int32_t(pipeline::inside_count))
-        throw pipeline::InputError(strain.where(),
-                                   fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
-                                   "make the file again with dresslife-strain");
-      all[v].inside = static_cast<pipeline::Inside>(inside[v]);
-    }
-  }
-  if (strain.has("/variation/rest")) {
-    const auto rest = strain.read<std::int32_t>("/variation/rest");
-    const auto rests = static_cast<std::int32_t>(read_rests(strain).size());
-    for (std::size_t v = 0; v < all.size(); ++v) {
-      if (rest[v] < 0 || rest[v] >= std::max(1, rests))
-        throw pipeline::InputError(strain.where(),
-                                   fmt::format("/variation/rest is {}, which no start came to", rest[v]),
-                                   "make the file again with dresslife-strain");
-      all[v].rest = static_cast<std::size_t>(rest[v]);
-    }
-  }
-  if (strain.has("/variation/stiffness")) {
-    const auto stiffness = strain.read<double>("/variation/stiffness");
-    for (std::size_t v = 0; v < all.size(); ++v) all[v].z[index_of(pipeline::Uncertain::hose_stiffness)] = stiffness[v];
+  const auto inside = strain.read<std::int32_t>("/variation/inside"),
+             rest = strain.read<std::int32_t>("/variation/rest");
+  const auto rests = static_cast<std::int32_t>(read_rests(strain).size());
+  const auto stiffness = strain.read<double>("/variation/stiffness");
+  const auto refuse = [&](const std::string& what) {
+    throw pipeline::InputError(strain.where(), what, "make the file again with dresslife-strain");
+  };
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    if (inside[v] < 0 || inside[v] >= std::int32_t(pipeline::inside_count))
+      refuse(fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]));
+    if (rest[v] < 0 || rest[v] >= std::max(1, rests))
+      refuse(fmt::format("/variation/rest is {}, which no start came to", rest[v]));
+    all[v].inside = static_cast<pipeline::Inside>(inside[v]);
+    all[v].rest = static_cast<std::size_t>(rest[v]);
+    all[v].z[index_of(pipeline::Uncertain::hose_stiffness)] = stiffness[v];
   }
   return all;
 }

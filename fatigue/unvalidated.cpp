@@ -98,8 +98,7 @@ std::vector<std::vector<std::vector<RubbedPatch>>> patches_of_jackets(const File
   const auto cable = strain.read<std::int32_t>("/jacket/cable");
   const auto place = strain.read<double>("/jacket/place"), work = strain.read<double>(work_of_jackets);
   const auto sample = strain.read<std::uint32_t>("/jacket/sample");
-  const auto rest = strain.has("/jacket/rest") ? strain.read<std::int32_t>("/jacket/rest")
-                                               : std::vector<std::int32_t>(work.size(), 0);
+  const auto rest = strain.read<std::int32_t>("/jacket/rest");
   std::vector patches(rests, std::vector<std::vector<RubbedPatch>>(cables));
   PatchCheck check(strain, "/jacket", place);
   for (std::size_t k = 0; k < work.size(); ++k) {
@@ -325,10 +324,8 @@ void find_jackets(Search& found) {
   const auto dresspack = strain.read<std::int32_t>("/cable/dresspack"),
              component = strain.read<std::int32_t>("/cable/component");
   auto patches = patches_of_jackets(strain, std::max<std::size_t>(1, found.starts.size()), names.size(), found.time);
-  // With a known rest, and in older files, only the job's own rest counts.
-  if (!strain.has("/jacket/rest") || !job.uncertainty.enabled ||
-      pipeline::is_known(job.uncertainty, pipeline::Uncertain::rest))
-    patches.resize(1);
+  // With a known rest, only the job's own rest counts.
+  if (!job.uncertainty.enabled || pipeline::is_known(job.uncertainty, pipeline::Uncertain::rest)) patches.resize(1);
   const std::size_t rests = patches.size();
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const pipeline::Dresspack& mounted = job.dresspacks[d].dresspack;

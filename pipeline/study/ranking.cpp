@@ -110,27 +110,14 @@ int count_attribute(const LifeRoot& file, const std::string& name) {
   return static_cast<int>(value);
 }
 
-/// Reads the unvalidated modes. Files without `unvalidated_modes` contain only the hose's wall.
 void read_unvalidated(const LifeRoot& file, RankingRow& row) {
-  if (file.has_attribute("unvalidated_modes")) {
-    try {
-      row.unvalidated = unvalidated_from(file.text_attribute("unvalidated_modes"));
-    } catch (const std::logic_error& problem) {
-      throw InputError(file.where(),
-                       fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
-                       "make the file again with dresslife-fatigue");
-    }
-    row.not_evaluated = file.text_attribute("not_evaluated");
-    return;
+  try {
+    row.unvalidated = unvalidated_from(file.text_attribute("unvalidated_modes"));
+  } catch (const std::logic_error& problem) {
+    throw InputError(file.where(), fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
+                     "make the file again with dresslife-fatigue");
   }
-  if (!file.has_attribute("hose_life_hours")) return;
-  UnvalidatedMode& wall = row.unvalidated.emplace_back();
-  wall.mode = UnvalidatedMode::wall;
-  wall.hours[1] = file.number_attribute("hose_life_hours");
-  wall.segment_from_tool = count_attribute(file, "hose_segment_from_tool");
-  wall.position_from_tool = file.number_attribute("hose_position_from_tool");
-  wall.place = file.text_attribute("hose_component");
-  wall.step = file.text_attribute("hose_step");
+  row.not_evaluated = file.text_attribute("not_evaluated");
 }
 
 RankingRow read_row(const JobResult& result) {

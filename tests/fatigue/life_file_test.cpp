@@ -216,6 +216,9 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     file.append("/cable_span/hose_moment", std::span<const double>(moments));
     if (f.varied_force != 0) {
       file.append("/variation/z", std::vector<double>{0, 1.5, 0, 0, 0});
+      file.append("/variation/stiffness", std::vector<double>{0});
+      for (const char* at_own : {"/variation/inside", "/variation/rest"})
+        file.append(at_own, std::vector<std::int32_t>{0});
       file.append("/variation/row/variation", std::vector<std::uint32_t>{0});
       file.append("/variation/row/site", std::vector<std::uint32_t>{0});
       file.append("/variation/row/turning", std::vector<std::uint32_t>{4});

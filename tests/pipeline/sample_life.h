@@ -11,6 +11,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/files/files.h"
+#include "pipeline/life/unvalidated_modes.h"
 
 namespace dresslife::pipeline {
 
@@ -20,7 +21,7 @@ struct SampleLife {
   int worst_from_tool = 3;
   bool causes = false;          ///< whether the file contains the damage by joint
   double hose_hours = 0;        ///< until the hose's wall cracks; 0: not evaluated
-  std::string unvalidated{};    ///< unvalidated_text(); empty: file of an older version
+  std::string unvalidated{};    ///< unvalidated_text(); empty: only the wall, if it has hours
   std::string wall_response{};  ///< empty: no wall
   double planned_hours =
       0;  ///< time until in 10 % of cases a conductor has lost its share of wires at one place; 0: file of an older version
@@ -208,22 +209,17 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
     writer.attribute("failing_conductor", "signal cable 3/conductor 2");
     writer.attribute("failing_position_from_tool", 0.75);
   }
+  std::string unvalidated = sample.unvalidated;
   if (sample.hose_hours > 0) {
-    writer.attribute("hose_life_repeats", sample.hose_hours * 3600 / seconds);
-    writer.attribute("hose_life_hours", sample.hose_hours);
-    writer.attribute("hose_life_months", sample.hose_hours / 80 * 7 * 12 / 365.25);
-    writer.attribute("hose_damage_per_repeat", seconds / 3600 / sample.hose_hours);
-    writer.attribute("hose_component", "hose 5");
-    writer.attribute("hose_segment_from_tool", 2);
-    writer.attribute("hose_position_from_tool", 1.5 * free_length / sample.segments);
-    writer.attribute("hose_time", time[samples / 3]);
-    writer.attribute("hose_step", text[1]);
+    UnvalidatedMode wall;
+    wall.mode = UnvalidatedMode::wall, wall.place = "hose 5", wall.step = text[1];
+    wall.hours[1] = sample.hose_hours, wall.time = time[samples / 3];
+    wall.segment_from_tool = 2, wall.position_from_tool = 1.5 * free_length / sample.segments;
+    unvalidated = unvalidated_text({wall});
   }
   if (!sample.wall_response.empty()) writer.attribute("wall_response", sample.wall_response);
-  if (!sample.unvalidated.empty()) {
-    writer.attribute("unvalidated_modes", sample.unvalidated);
-    writer.attribute("not_evaluated", "water hose, kinks");
-  }
+  writer.attribute("unvalidated_modes", unvalidated);
+  writer.attribute("not_evaluated", sample.unvalidated.empty() ? "" : "water hose, kinks");
   writer.attribute("job", sample.job);
   writer.attribute(
       "history",
