@@ -89,31 +89,23 @@ TEST_CASE("scale-offset: doubles come back, in as many bits as their span takes"
   CHECK(through(apart, 11) == apart);
 }
 
-TEST_CASE("scale-offset: a chunk of doubles that is cut off or claims impossible bits is refused") {
-  std::vector<char> chunk;
-  pack_chunk(std::vector<double>(64, 5), 0, chunk);
-  std::vector<double> back(64);
-  for (const int bits : {1, 53, 63, 64, 65, -1}) {
-    chunk[0] = static_cast<char>(bits);
-    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
-  }
-  CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
-}
-
 TEST_CASE("scale-offset: a chunk that is cut off or claims impossible bits is refused") {
-  std::vector<char> chunk;
-  pack_chunk(std::vector<float>(64, 5), 0, chunk);
-  std::vector<float> back(64);
-  for (const int bits : {1, 33, -1}) {
-    chunk[0] = static_cast<char>(bits);
-    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
-  }
-  CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
-  chunk.resize(1000);  // long enough for every number of bits
-  for (const int bits : {33, -1}) {
-    std::memcpy(chunk.data(), &bits, sizeof(bits));
-    CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
-  }
+  const auto refused = [](const auto number, std::initializer_list<int> too_short,
+                          std::initializer_list<int> impossible) {
+    std::vector<char> chunk;
+    std::vector back(64, number);
+    pack_chunk(back, 0, chunk);
+    CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
+    const auto claim = [&](int bits) {
+      std::memcpy(chunk.data(), &bits, sizeof(bits));
+      CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
+    };
+    for (const int bits : too_short) claim(bits);
+    chunk.resize(1000);  // long enough for every number of bits
+    for (const int bits : impossible) claim(bits);
+  };
+  refused(5.0f, {1, 32}, {33, -1});
+  refused(5.0, {1, 64}, {53, 63, 65, -1});
 }
 
 }  // namespace dresslife::pipeline
