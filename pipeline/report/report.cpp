@@ -153,11 +153,6 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
   return all;
 }
 
-/// Returns the 10 to 90 % range of a job's life: planned_hours; in older files the life of the first wire.
-const std::array<double, 3>& spread_of(const RankingRow& row) {
-  return row.planned() ? row.planned_hours : row.first_wire_hours;
-}
-
 /// Returns lives on one logarithmic axis: a dot, the bounds as a bar behind it, and the lives of 10 to 90 % of such dresspacks.
 std::string comparison_chart(const std::vector<RankingRow>& rows) {
   std::vector<const RankingRow*> shown;
@@ -166,7 +161,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     if (!row.done() || !row.damaged() || shown.size() == most_compared) continue;
     shown.push_back(&row);
     for (const double hours : {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
-                               row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
+                               row.hours_of(row.life_repeats_all_free), row.planned_hours[0], row.planned_hours[2]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -190,7 +185,7 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
     picture.text(names - 10, y + 4, row.job, "name", Picture::Anchor::end, names - 14);
     const auto x = [&](double repeats) { return panel.across(row.hours_of(repeats)); };
     picture.line(x(row.life_repeats_all_stick), y, x(row.life_repeats_all_free), y, "whisker");
-    const std::array<double, 3>& spread = spread_of(row);
+    const std::array<double, 3>& spread = row.planned_hours;
     if (spread[0] > 0 && std::isfinite(spread[2]))
       picture.line(panel.across(spread[0]), y, panel.across(spread[2]), y, "scatter");
     picture.dot(panel.across(row.headline_hours()), y, 5, "dot",

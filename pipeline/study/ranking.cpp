@@ -66,14 +66,12 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   const auto read = [&](const std::string& name, double& value) {
     if (file.has_attribute(name)) value = file.number_attribute(name);
   };
-  const bool plans =
-      file.has_attribute("first_wire_life_hours_p10");  // in older files life_hours_p10 belongs to the first wire
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    read(fmt::format("life_hours_{}", ends[i]), plans ? row.planned_hours[i] : row.first_wire_hours[i]);
-    if (plans) read(fmt::format("first_wire_life_hours_{}", ends[i]), row.first_wire_hours[i]);
+    read(fmt::format("life_hours_{}", ends[i]), row.planned_hours[i]);
+    read(fmt::format("first_wire_life_hours_{}", ends[i]), row.first_wire_hours[i]);
     read(fmt::format("conductor_life_hours_{}", ends[i]), row.conductor_hours[i]);
   }
-  if (!plans) return;
+  if (!row.planned()) return;
   read("life_months_p10", row.planned_months);
   for (std::size_t i = 0; i < ends.size(); ++i)
     read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
@@ -114,7 +112,8 @@ void read_unvalidated(const LifeRoot& file, RankingRow& row) {
   try {
     row.unvalidated = unvalidated_from(file.text_attribute("unvalidated_modes"));
   } catch (const std::logic_error& problem) {
-    throw InputError(file.where(), fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
+    throw InputError(file.where(),
+                     fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
                      "make the file again with dresslife-fatigue");
   }
   row.not_evaluated = file.text_attribute("not_evaluated");

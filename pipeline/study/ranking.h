@@ -99,7 +99,7 @@ struct RankingRow {
   std::string worst_joint;
   double worst_joint_share = 0;  ///< its share of the worst wire's damage; above 1 if other joints reduce the damage
   std::vector<UnvalidatedMode> unvalidated;  ///< failure modes that are not included in the hours above
-  std::string not_evaluated;  ///< parts and failure modes without a computed life; empty: none, or an older file
+  std::string not_evaluated;                 ///< parts and failure modes without a computed life; empty: none
   /// Loads of the cables: largest force over the force that tears a cable; moment of all cables on the hose at a clamp over
   /// the largest moment that the hose bears there. Absent: no cable slides, or not known.
   std::optional<double> largest_force_share, clamp_moment_share;
@@ -135,7 +135,7 @@ struct RankingRow {
   const std::array<double, 3>& by_scatter() const {
     return std::isnan(scatter_hours[0]) ? planned_hours : scatter_hours;
   }
-  /// planned_hours[0]; of older files the life of the worst wire.
+  /// planned_hours[0]; without wires the life of the worst wire.
   double headline_hours() const { return planned() ? planned_hours[0] : life_hours; }
   double headline_months() const { return planned() ? planned_months : life_months; }
   double headline_repeats() const { return planned() ? planned_hours[0] * 3600 / repeat_seconds : life_repeats; }

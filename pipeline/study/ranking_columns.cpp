@@ -55,10 +55,9 @@ class Table {
  public:
   Table() {
     add_worst_wire();
-    add_lives(
-        "life_hours_{}",
-        "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
-        [](const RankingRow& row) -> const Lives& { return row.planned() ? row.planned_hours : row.first_wire_hours; });
+    add_lives("life_hours_{}",
+              "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
+              &RankingRow::planned_hours);
     add_lives(
         "conductor_life_hours_{}",
         "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",

@@ -24,15 +24,14 @@ struct SampleLife {
   std::string unvalidated{};    ///< unvalidated_text(); empty: only the wall, if it has hours
   std::string wall_response{};  ///< empty: no wall
   double planned_hours =
-      0;  ///< time until in 10 % of cases a conductor has lost its share of wires at one place; 0: file of an older version
+      0;  ///< time until in 10 % of cases a conductor has lost its share of wires at one place; 0: no plan
   double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
   std::string life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Used only with planned_hours
   bool wires = true;            ///< false: the dresspack contains no wires
   std::vector<std::string>
       dresspacks{};  ///< two names: each dresspack has half of the segments, the worst wire lies in the second
   std::vector<std::pair<std::string, double>> more_sites{};  ///< sites in the worst segment: path, damage
-  std::vector<std::pair<std::string, double>>
-      conductors{};  ///< path, repeats until it fails at one place; empty: file of an older version
+  std::vector<std::pair<std::string, double>> conductors{};  ///< path, repeats until it fails at one place
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";

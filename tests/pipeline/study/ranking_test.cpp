@@ -637,7 +637,8 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   CHECK(table.find("\n\nshort\n   job.yaml:3:1: error: too short; make it longer\n") != std::string::npos);
 }
 
-TEST_CASE("ranking: jobs are ranked and reported by the life that 10 % do not reach, older files by their worst wire") {
+TEST_CASE(
+    "ranking: jobs are ranked and reported by the life that 10 % do not reach, without a plan by the worst wire") {
   const Scratch scratch;
   SampleLife weak = living(20000), strong = living(10000);
   weak.planned_hours = 50, strong.planned_hours = 60;
