@@ -182,12 +182,12 @@ bool is_ours(const fs::path& file) {
   return !marked(begin).is_yours_once_changed || is_as_marked(read_text(file));
 }
 
-void check_replaceable(const fs::path& file) {
+void check_replaceable(const fs::path& file, const std::string& another_name) {
   if (is_plain_file(file) && is_input(file))
-    throw InputError({file.string()}, "is one of the files that are read", "name another place with -o");
+    throw InputError({file.string()}, "is one of the files that are read", another_name);
   if (!policy().replaces_files_of_others && state_of(file).exists() && !is_ours(file))
     throw InputError({file.string()}, "is there already and was not written by dresslife, or was changed since",
-                     "move it away, name another place with -o, or replace it with --force");
+                     fmt::format("move it away, {}, or replace it with --force", another_name));
 }
 
 void let_replace_files_of_others() { policy().replaces_files_of_others = true; }

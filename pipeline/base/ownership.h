@@ -36,9 +36,10 @@ bool is_ours(const std::filesystem::path& file);
 /// Returns whether the file is in a notes folder (make_notes()). Errors: DiskError.
 bool lies_in_notes(const std::filesystem::path& file);
 
-/// Checks that a file may be written under this name. Errors: InputError if the name is a file that is not ours, an input of this
-/// program, a folder, a device, a pipe or a link.
-void check_replaceable(const std::filesystem::path& file);
+/// Checks that a file may be written under this name. another_name: the remedy, with the option that names the file. Errors:
+/// InputError if the name is a file that is not ours, an input of this program, a folder, a device, a pipe or a link.
+void check_replaceable(const std::filesystem::path& file,
+                       const std::string& another_name = "name another place with -o");
 /// Lets this program also replace files that are not ours (--force). Inputs are never replaced.
 void let_replace_files_of_others();
 bool replaces_files_of_others();

@@ -20,7 +20,7 @@ int export_job(const ExportOptions& options) {
   const fs::path file = options.xdmf;
   if (file.extension() != ".xdmf")
     throw InputError({file.string()}, "is no .xdmf", "name the file accordingly: ParaView goes by it");
-  check_replaceable(file);
+  check_replaceable(file, "name another file with --paraview");
   write_text_if_changed(file, with_mark(xdmf_text(job_files(options.job), file), Mark::xml));
   return 0;
 }

@@ -25,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* elsewhere = "run in another folder";  // the short job is written into the present one
+
 struct ImproveOptions : RunOptions {
   ImproveRequest request;
   double off_mm = 10;
@@ -109,7 +111,7 @@ bool write_short_job(const ImproveRequest& request, const Improvement& found, co
                      bool verified, bool written) {
   const Final* const best = finals.best();
   const Node document = read_document(request.file);
-  check_replaceable(job);  // checked a second time, because the file may have changed during the search
+  check_replaceable(job, elsewhere);  // checked a second time, because the file may have changed during the search
   if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) {
     if (written && remove_ours(job))
       print(shown(fmt::format("Removed: {}, the best as drawn, because nothing is clearly better.\n", job.string())));
@@ -172,7 +174,7 @@ int improve_study(ImproveOptions options) {
   const OwnFolder own(options, name + "_improve", options.request.file);
   const StudyPlaces& places = own.places;
   const fs::path job = name + "_improved.yaml";
-  check_replaceable(job);
+  check_replaceable(job, elsewhere);
   const Study study = read_study(options.request.file, options.sets);
   const FilesAtStart files = files_of(study);
   if (const MountingTolerance by = tolerance_of(options.off_mm, options.off_deg);

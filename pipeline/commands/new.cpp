@@ -385,7 +385,7 @@ int make(NewOptions options) {
   if (!options.program.empty()) check_named("--program", "programs", options.program);
   for (const std::string& name : {options.robot, options.program, options.dresspack})
     if (kind_of(name) == FileKind::file) note_input(name);
-  check_replaceable(options.job);
+  check_replaceable(options.job, "name another job");
   const PassingFile of_urdf("request.yaml");
   if (!accelerations.empty()) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
   RouteRequest request;

@@ -50,7 +50,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;    // number of routings of one search that are simulated through the whole chain
+constexpr int trials = 3;  // number of routings of one search that are simulated through the whole chain
+constexpr const char* another_job = "name another job with --job";
 constexpr int further = 40;  // short runs for less bending and twisting: a third more time than a usual search
 
 struct RouteOptions : RunOptions {
@@ -229,7 +230,7 @@ std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& o
 /// Writes the best routing of a search, or the first if none ran. head: comment lines, or empty.
 void write_job(const Trial& of, const Draft& draft, const RouteOptions& options, const fs::path& job,
                const std::string& head) {
-  check_replaceable(job);  // checked a second time, because the file may have changed during the search
+  check_replaceable(job, another_job);  // checked a second time, because the file may have changed during the search
   const Node document = routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion,
                                of.factor, job.has_parent_path() ? job.parent_path() : fs::path("."));
   const std::string of_tool = tool_space_words(draft);
@@ -473,8 +474,8 @@ int route(const RouteOptions& options) {
             shown(options.request.of), shown(options.request.of), draft.tool_space->key))));
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
-  check_replaceable(job);
-  check_replaceable(page);
+  check_replaceable(job, another_job);
+  check_replaceable(page, another_job);  // its name follows that of the job
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
   const std::vector<double> factors = factors_of(options);

@@ -41,7 +41,7 @@ struct StageFlags {
 
 void check_output(const StageCall& call, const StageFlags& flags) {
   if (flags.force) let_replace_files_of_others();
-  if (!flags.receipt.empty()) check_replaceable(flags.receipt);
+  if (!flags.receipt.empty()) check_replaceable(flags.receipt, "name another file with --receipt");
   if (call.info.may_lack_output && call.output.empty()) return;
   const auto folder = call.output.parent_path();
   if (!folder.empty() && kind_of(folder) != FileKind::folder)

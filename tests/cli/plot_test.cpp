@@ -113,7 +113,8 @@ TEST_CASE("export names every moment for ParaView, and writes over no file but i
   CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.yaml").status == 1);
   scratch.write("mine.xdmf", "keep: me\n");
   const Outcome foreign = run(scratch, "dresslife", "export runs/job/job --paraview mine.xdmf");
-  CHECK(foreign.err.find("mine.xdmf: error: is there already and was not written by dresslife") == 0);
+  CHECK_THAT(foreign.err, Catch::StartsWith("mine.xdmf: error: is there already and was not written by dresslife") &&
+                              Catch::Contains("name another file with --paraview, or replace it with --force\n"));
   CHECK(content(scratch / "mine.xdmf") == "keep: me\n");
   CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf").status == 0);  // its own file is replaced
 }

@@ -50,7 +50,7 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   CHECK(over.status == 1);
   CHECK(over.err ==
         "hose.yaml: error: is there already and was not written by dresslife, or was changed since; move it away, "
-        "name another place with -o, or replace it with --force\n");
+        "name another job with --job, or replace it with --force\n");
 
   // The job's own routing is no answer to the question for another link.
   const Outcome other =

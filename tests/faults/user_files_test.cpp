@@ -238,6 +238,23 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
   CHECK(run(scratch, "dresslife", "run study.yaml --force").status == 0);
 }
 
+TEST_CASE("a command that would replace a file of the user names its own option or another way") {
+  Scratch scratch;
+  write_inputs(scratch);
+  scratch.write("mine.yaml", "mine: 1\n");
+  scratch.write("job_improved.yaml", "mine: 1\n");
+  for (const auto& [program, words, remedy] :
+       {std::tuple("dresslife", "new --robot abb_irb2600_12_165 mine.yaml", "name another job"),
+        std::tuple("dresslife", "improve job.yaml", "run in another folder"),
+        std::tuple("dresslife-sim", "job.yaml -o m.h5 --receipt mine.yaml", "name another file with --receipt"),
+        std::tuple("dresslife-sim", "job.yaml -o mine.yaml", "name another place with -o")}) {
+    const Outcome outcome = run(scratch, program, words);
+    INFO(words << ": " << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.ends_with(std::string("; move it away, ") + remedy + ", or replace it with --force\n"));
+  }
+}
+
 TEST_CASE("a file of ours that a user edits is theirs, one without edits is made again when it is damaged") {
   Scratch scratch;
   write_inputs(scratch);
