@@ -53,7 +53,6 @@ void refuse_unused(const Request& request) {
     if (is_given && !used)
       throw pipeline::InputError({option}, fmt::format("does nothing without {}", with), "give both");
   };
-  need("--by-short-runs", request.by_short_runs, !request.screen.empty(), "--screen");
   const bool has_cell = !given.empty() && !request.duration;
   need("--bracket", request.bracket_mm.has_value(), has_cell, "--preview, --screen or --propose");
   need("--exercise", request.exercise, has_cell, "--preview, --screen or --propose");
@@ -153,6 +152,7 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
 
 int main(int argc, char** argv) {
   Request request;
+  const pipeline::OptionRules of_search{.needs = "--propose"};
   const pipeline::StageInfo info{
       .program = "dresslife-sim",
       .purpose = "Simulates how a robot's dresspack moves while the robot runs its program.",
@@ -168,23 +168,27 @@ int main(int argc, char** argv) {
             &request.preview},
            {"--screen", "LIST.yaml",
             "write only the geometric checks of the job with each of these changes (screening.h5)", &request.screen},
-           {"--by-short-runs", "", "with --screen: run each with few segments, and write the results",
-            &request.by_short_runs},
+           {"--by-short-runs",
+            "",
+            "with --screen: run each with few segments, and write the results",
+            &request.by_short_runs,
+            {.needs = "--screen"}},
            pipeline::number_option(
                "--propose", "COUNT",
                "write only routings with clamps on the job's links that pass the geometric checks (screening.h5)",
                &request.propose, 1, 24),
-           {"--ring", "LINK", "with --propose: also a guide ring on this link", &request.proposals.ring_link},
+           {"--ring", "LINK", "with --propose: also a guide ring on this link", &request.proposals.ring_link,
+            of_search},
            pipeline::number_option("--tried", "COUNT", "with --propose: routings to check by geometry",
-                                   &request.proposals.tried, 1, 1'000'000),
+                                   &request.proposals.tried, 1, 1'000'000, of_search),
            pipeline::number_option("--short-runs", "COUNT", "with --propose: short runs that improve the routings",
-                                   &request.proposals.short_runs, 0, 100'000),
+                                   &request.proposals.short_runs, 0, 100'000, of_search),
            pipeline::number_option(
                "--further", "COUNT",
                "with --propose: more short runs, for less bend and twist, after enough routings keep all limits",
-               &request.proposals.further, 0, 100'000),
+               &request.proposals.further, 0, 100'000, of_search),
            pipeline::number_option("--seed", "NUMBER", "with --propose: start of the random numbers",
-                                   &request.proposals.seed, 0, 1'000'000'000),
+                                   &request.proposals.seed, 0, 1'000'000'000, of_search),
            pipeline::number_option("--bracket", "MM", "instead of the job's routing.longest_bracket_mm",
                                    &request.bracket_mm, 0, 10'000),
            {"--exercise", "", "with these: a motion of the wrist instead of the job's motion", &request.exercise}},

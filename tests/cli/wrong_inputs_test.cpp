@@ -981,6 +981,10 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
         "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");
   // Options that do nothing beside the others are refused.
+  for (const std::string option : {"--ring link_3", "--tried 9", "--short-runs 9", "--further 9", "--seed 9"})
+    CHECK(answer("dresslife-sim", "job.yaml -o m.h5 " + option) ==
+          option.substr(0, option.find(' ')) + " requires --propose");
+  CHECK(answer("dresslife-sim", "job.yaml -o s.h5 --by-short-runs") == "--by-short-runs requires --screen");
   for (const auto& [program, words, message] :
        {std::tuple("dresslife-import", "spot.mod -o m.yaml --set simulation.segments=3",
                    "--set simulation.segments=3: error: changes a job"),
