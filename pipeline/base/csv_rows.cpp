@@ -8,6 +8,7 @@
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
@@ -176,13 +177,19 @@ std::string harmless(const std::string& text) {
 
 std::string csv_cell(const std::string& written) {
   const std::string text = harmless(written);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos && !text.starts_with('#')) return text;
   std::string quoted = "\"";
   for (const char letter : text) {
     if (letter == '"') quoted += '"';
     quoted += letter;
   }
   return quoted + '"';
+}
+
+std::string csv_text(const CsvTable& table) {
+  std::string text = joined(mapped(table.columns, &CsvTable::Column::title), ",") + '\n';
+  for (const std::vector<std::string>& row : table.rows) text += joined(mapped(row, csv_cell), ",") + '\n';
+  return text;
 }
 
 }  // namespace dresslife::pipeline

@@ -67,7 +67,18 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
 /// begins with an apostrophe, and control characters are escaped (shown()).
 std::string harmless(const std::string& text);
 
-/// Returns harmless(text) as a CSV cell, in quotes if it needs them.
+/// Returns harmless(text) as a CSV cell, in quotes if it needs them: a row that began with # would be a comment.
 std::string csv_cell(const std::string& text);
+
+/// A table for other programs, as CSV and as JSON.
+struct CsvTable {
+  struct Column {
+    std::string title;
+    bool is_text = false;  ///< false: numbers
+  };
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows{};  ///< (row, column) cells as they are; empty: no value
+};
+std::string csv_text(const CsvTable& table);
 
 }  // namespace dresslife::pipeline

@@ -20,13 +20,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Returns whether a column contains text, also if a cell is a name like "0012".
-bool is_of_text(const std::string& title) {
-  const RankingColumn* const column = find_in(ranking_columns(), &RankingColumn::name, title);
-  return title == "name" || title == "duty" || (column && !column->has_numbers());
-}
-
-Json json_of_cell(const std::string& text) {
+Json json_of_word(const std::string& text) {
   const std::optional<double> number = number_in(text);
   return number && std::isfinite(*number) ? Json(*number) : Json(text);
 }
@@ -37,20 +31,18 @@ Json text_or_null(const std::string& text) { return text.empty() ? null() : Json
 
 Json empty_object() { return Json(std::initializer_list<std::pair<std::string_view, Json>>{}); }
 
-std::vector<Json> rows_of_csv(const std::string& csv) {
-  CsvReader reader(csv, "table", ",");
-  const CsvRow titles = reader.next();
-  const std::vector<bool> is_text = mapped(titles, [](const auto& title) -> bool { return is_of_text(title.text); });
-  std::vector<Json> rows;
-  for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
+/// is_text: the column contains text, also if a cell is a name like "0012".
+Json json_of_cell(const std::string& text, bool is_text) {
+  return is_text || text.empty() ? text_or_null(text) : json_of_word(text);
+}
+
+std::vector<Json> objects_of(const CsvTable& table) {
+  return mapped(table.rows, [&](const std::vector<std::string>& row) {
     Json object = empty_object();
-    for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k)
-      object.add(titles[k].text, is_text[k]            ? text_or_null(row[k].text)
-                                 : row[k].text.empty() ? null()
-                                                       : json_of_cell(row[k].text));
-    rows.push_back(object);
-  }
-  return rows;
+    for (std::size_t k = 0; k < row.size(); ++k)
+      object.add(table.columns[k].title, json_of_cell(row[k], table.columns[k].is_text));
+    return object;
+  });
 }
 
 Json warning_list(const RankingRow& row) {
@@ -59,21 +51,19 @@ Json warning_list(const RankingRow& row) {
 
 }  // namespace
 
-Json json_of_csv(const std::string& csv) { return rows_of_csv(csv); }
+Json json_of(const CsvTable& table) { return objects_of(table); }
 
 Json json_of(const std::vector<RankingRow>& rows) {
   return mapped(rows, [](const RankingRow& row) {
     Json object = empty_object();
-    for (const RankingColumn& column : ranking_columns()) {
-      const std::string text = column.text(row);
-      object.add(column.name, column.has_numbers() && !text.empty() ? json_of_cell(text) : text_or_null(text));
-    }
+    for (const RankingColumn& column : ranking_columns())
+      object.add(column.name, json_of_cell(column.text(row), !column.has_numbers()));
     return object.add("warning_list", warning_list(row));
   });
 }
 
 Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows) {
-  std::vector<Json> objects = rows_of_csv(duty_csv(duties));
+  std::vector<Json> objects = objects_of(duty_table(duties));
   auto object = objects.begin();
   for (const DutyResult& duty : duties)
     for (const DutyPart& part : duty.parts)
@@ -110,7 +100,7 @@ Json json_of(const Node& document) {
     case Node::Kind::scalar:
       if (document.quoted) return document.text;
       if (document.text == "true" || document.text == "false") return document.text == "true";
-      return json_of_cell(document.text);
+      return json_of_word(document.text);
     case Node::Kind::list:
       return mapped(document.items, [](const Node& item) { return json_of(item); });
     case Node::Kind::map:

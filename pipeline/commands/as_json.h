@@ -8,6 +8,7 @@
 
 namespace dresslife::pipeline {
 
+struct CsvTable;
 struct DutyResult;
 struct Fleet;
 struct Node;
@@ -16,16 +17,15 @@ struct RankingRow;
 struct StateWords;
 struct Warning;
 
-/// Returns a list with one object per row of a CSV text of this program, with the titles of the columns as keys. Cells with
-/// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Names and all other columns of text are
-/// always text.
-Json json_of_csv(const std::string& csv);
+/// Returns a list with one object per row of a table, with the titles of the columns as keys. Cells of text columns are text as it
+/// is, without the apostrophe for spreadsheets. Other cells are numbers, but "inf" is text, because JSON has no infinity. Empty
+/// cells are null.
+Json json_of(const CsvTable& table);
 
-/// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning). Cells of text columns are
-/// text as it is, without the apostrophe for spreadsheets.
+/// Returns the rows of ranking.csv in the same form, each with its warnings as `warning_list`, a list of json_of(Warning).
 Json json_of(const std::vector<RankingRow>& rows);
 
-/// Returns the rows of duty_csv(), each with the warnings of its program as `warning_list`, and as `do_not_plan` the programs of its
+/// Returns the rows of duty_table(), each with the warnings of its program as `warning_list`, and as `do_not_plan` the programs of its
 /// duty whose warnings make a plan unreliable (DutyResult::doubtful), as `confirm_first` its doubtful input
 /// (DutyResult::unconfirmed). rows: rows of the programs.
 Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows);

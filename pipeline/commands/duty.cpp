@@ -24,9 +24,8 @@ int duty(const RunOptions& options) {
   for (const Warning& warning : doubtful_duties(file)) write_stderr(shown(warning.paragraph()));
   const DutiesRun made = run_duties(file, options);
   const std::vector<DutyResult> results = evaluated(file, made.study, made.rows);
-  const std::string csv = duty_csv(results);
   const fs::path table = made.places.folder / ("duty_" + name.stem().string() + ".csv");
-  write_text_if_changed(table, csv);
+  write_text_if_changed(table, csv_text(duty_table(results)));
   const fs::path page = made.places.folder / ("duty_" + name.stem().string() + ".html");
   write_text_if_changed(page,
                         with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));

@@ -281,10 +281,11 @@ int plan(const PlanOptions& options) {
     }
   }
   tests += age_words(fleet, found, age_limits(with_past), week_hours_of(duties));
-  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found, checks);
+  const std::string stem = "plan_" + fs::path(options.fleet).stem().string();
+  const CsvTable rows = plan_table(fleet, found, checks);
   const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
   const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");
-  write_text_if_changed(table, csv);
+  write_text_if_changed(table, csv_text(rows));
   write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
   const PlanNotes notes{doubts_with_warnings(duties), tests, cautions(duties)};
   write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes,
@@ -293,7 +294,7 @@ int plan(const PlanOptions& options) {
   if (other) {
     const fs::path beside = made.places.folder / (stem + "_what_if.csv"),
                    its_page = made.places.folder / (stem + "_what_if.html");
-    write_text_if_changed(beside, plan_csv(*changed, *other));
+    write_text_if_changed(beside, csv_text(plan_table(*changed, *other)));
     write_text_if_changed(
         its_page, with_mark(plan_page(what_if_name, *changed, *other,
                                       {notes.doubts, "", notes.paragraphs, fs::path(options.fleet).stem().string(),
@@ -304,10 +305,10 @@ int plan(const PlanOptions& options) {
   }
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   const auto json = [&] {
-    Json all{{"plan", json_of_csv(csv)}, {"windows", json_of_windows(fleet, found)}};
+    Json all{{"plan", json_of(rows)}, {"windows", json_of_windows(fleet, found)}};
     if (other)
-      all.add({{"what_if", json_of_csv(plan_csv(*changed, *other))},
-               {"what_if_windows", json_of_windows(*changed, *other)}});
+      all.add(
+          {{"what_if", json_of(plan_table(*changed, *other))}, {"what_if_windows", json_of_windows(*changed, *other)}});
     return all.text + "\n";
   };
   print(options.json

@@ -1,6 +1,8 @@
 // The output of --json is JSON that Python reads, with the numbers of the other outputs.
 #include <sstream>
 
+#include "pipeline/advise/plan/duty_words.h"
+#include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/study/ranking.h"
 #include "tests/catch.h"
@@ -74,5 +76,20 @@ TEST_CASE("json: texts of the ranking are as they were given, also with line fee
         R"("status":"failed")", R"("message":"it broke")", R"("worst_joint":null)"}) {
     INFO(member);
     CHECK(text.find(member) != std::string::npos);
+  }
+}
+
+TEST_CASE("json: names of duties and of their jobs are as they were given") {
+  dresslife::pipeline::DutyResult duty;
+  duty.parts.resize(1);
+  duty.lives.share = {1};
+  dresslife::pipeline::RankingRow row;
+  row.job = duty.parts.front().job = "1e5";
+  for (const std::string name : {"#7", "line 1\nline 2", "0012", "=A1", " a, \"b\" "}) {
+    duty.name = name;
+    const std::string text = dresslife::pipeline::json_of(std::vector{duty}, {row}).text;
+    INFO(text);
+    CHECK(text.starts_with("[{\"duty\":" + dresslife::pipeline::Json(name).text +
+                           R"(,"job":"1e5","repeats_per_hour":0,)"));
   }
 }

@@ -260,15 +260,18 @@ std::string duty_words(const std::vector<DutyResult>& results) {
   return text;
 }
 
-std::string duty_csv(const std::vector<DutyResult>& results) {
-  std::string text =
-      "duty,job,repeats_per_hour,share_of_time,share_of_damage,life_hours_p10,life_hours_p50,life_hours_p90,past_hours,"
-      "survived,remaining_hours_p10,remaining_hours_p50,remaining_hours_p90,life_hours_p10_without,life_hours_p10_twice,life_error_p10,life_error_p50,life_error_p90\n";
+CsvTable duty_table(const std::vector<DutyResult>& results) {
+  CsvTable table{{{"duty", true}, {"job", true}}};
+  for (const char* title :
+       {"repeats_per_hour", "share_of_time", "share_of_damage", "life_hours_p10", "life_hours_p50", "life_hours_p90",
+        "past_hours", "survived", "remaining_hours_p10", "remaining_hours_p50", "remaining_hours_p90",
+        "life_hours_p10_without", "life_hours_p10_twice", "life_error_p10", "life_error_p50", "life_error_p90"})
+    table.columns.push_back({title});
   for (const DutyResult& duty : results)
     for (std::size_t k = 0; k < duty.parts.size(); ++k) {
       const DutyLives& lives = duty.lives;
       const bool remains = duty.past_hours > 0;
-      std::vector<std::string> cells{csv_cell(duty.name), csv_cell(duty.parts[k].job)};
+      std::vector<std::string>& cells = table.rows.emplace_back(std::vector{duty.name, duty.parts[k].job});
       for (const double value :
            {duty.parts[k].repeats_per_hour, duty.parts[k].share_of_time, lives.share[k], lives.percentiles[0],
             lives.percentiles[1], lives.percentiles[2], duty.past_hours, lives.survived})
@@ -277,9 +280,8 @@ std::string duty_csv(const std::vector<DutyResult>& results) {
       for (const double value : {duty.parts[k].without[0], duty.parts[k].as_twice[0]})
         cells.push_back(std::isnan(value) ? "" : shortest_text(value));
       for (const double factor : duty.errors) cells.push_back(std::isfinite(factor) ? shortest_text(factor) : "");
-      text += fmt::format("{}\n", fmt::join(cells, ","));
     }
-  return text;
+  return table;
 }
 
 }  // namespace dresslife::pipeline

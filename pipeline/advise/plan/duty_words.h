@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/base/csv_rows.h"
 
 namespace dresslife::pipeline {
 
@@ -30,6 +31,6 @@ std::string caution_words(const DutyResult& duty);
 
 /// Returns one row per duty and program; lives belong to the whole duty. Numbers are exact when read back; "inf": no damage; empty: not
 /// computed, or not possible.
-std::string duty_csv(const std::vector<DutyResult>& results);
+CsvTable duty_table(const std::vector<DutyResult>& results);
 
 }  // namespace dresslife::pipeline

@@ -360,23 +360,27 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   return text;
 }
 
-std::string plan_csv(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks) {
-  std::string text = "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
-  for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
-  text += ",check_today_saves,checks_save\n";
+CsvTable plan_table(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks) {
+  CsvTable table{{{"name", true},
+                  {"duty", true},
+                  {"installed", true},
+                  {"age_hours"},
+                  {"fails_before_first_window"},
+                  {"replace_in", true},
+                  {"fails_before_replacement"}}};
+  for (const Window& window : plan.windows) table.columns.push_back({"fails_after_" + day_text(window.first)});
+  for (const char* title : {"check_today_saves", "checks_save"}) table.columns.push_back({title});
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
-    std::vector<std::string> cells{
-        csv_cell(fleet.rows[i].name),          csv_cell(fleet.rows[i].duty),
-        day_text(fleet.rows[i].since),         shortest_text(row.age_hours),
-        shortest_text(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "",
-        shortest_text(row.fails_before)};
+    std::vector<std::string>& cells = table.rows.emplace_back(
+        std::vector{fleet.rows[i].name, fleet.rows[i].duty, day_text(fleet.rows[i].since), shortest_text(row.age_hours),
+                    shortest_text(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "",
+                    shortest_text(row.fails_before)});
     for (const double share : row.fails_until_next) cells.push_back(shortest_text(share));
     cells.push_back(checks ? shortest_text((*checks)[i].today) : "");
     cells.push_back(checks ? shortest_text((*checks)[i].regular) : "");
-    text += fmt::format("{}\n", fmt::join(cells, ","));
   }
-  return text;
+  return table;
 }
 
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {

@@ -8,6 +8,7 @@
 #include "pipeline/advise/plan/plan.h"
 #include "pipeline/advise/plan/value_of_checks.h"
 #include "pipeline/advise/plan/value_of_test.h"
+#include "pipeline/base/csv_rows.h"
 
 namespace dresslife::pipeline {
 
@@ -64,8 +65,8 @@ std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
 /// Returns one row per dresspack; numbers are exact when they are read back. checks: result of values_of_checks(); absent: their
 /// cells are empty.
-std::string plan_csv(const Fleet& fleet, const Plan& plan,
-                     const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
+CsvTable plan_table(const Fleet& fleet, const Plan& plan,
+                    const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
 
 /// Returns an iCalendar file (RFC 5545) with an event for each window.
 std::string plan_calendar(const Fleet& fleet, const Plan& plan);

@@ -77,6 +77,7 @@ TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a
     CHECK(harmless(formula) == std::string("'") + formula);
   CHECK(csv_cell("plain") == "plain");
   CHECK(csv_cell("a,b") == "\"a,b\"");
+  CHECK(csv_cell("#7") == "\"#7\"");  // a line that begins with # is a comment
   CHECK(csv_cell("say \"x\"") == "\"say \"\"x\"\"\"");
   const std::vector<std::string> cells{"a,b", "\"", "\"\"", ",", "x\"y,z\"", "one"};
   std::string line;

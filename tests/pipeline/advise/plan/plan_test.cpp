@@ -845,7 +845,7 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2)
     CHECK(end - begin <= 75);
   CHECK(begin == calendar.size());
-  CHECK(plan_csv(fleet, plan).starts_with("name,duty,installed,age_hours,"));
+  CHECK(csv_text(plan_table(fleet, plan)).starts_with("name,duty,installed,age_hours,"));
   const auto uid = [](const std::string& of) {
     return of.substr(of.find("UID:"), of.find("DTSTAMP") - of.find("UID:"));
   };

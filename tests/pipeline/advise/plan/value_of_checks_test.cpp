@@ -171,7 +171,7 @@ TEST_CASE("checks: the words name the dresspacks with most, and what the regular
   inspection.interval_weeks = 0;
   CHECK(check_words(values, inspection, plant.fleet, plant.plan).find("every") == std::string::npos);
   CHECK(check_words(std::vector<CheckValue>(3), {}, plant.fleet, plant.plan).starts_with("No visual check"));
-  CHECK(plan_csv(plant.fleet, plant.plan, values).find("checks_save\n") != std::string::npos);
-  CHECK(plan_csv(plant.fleet, plant.plan, values).find(",321,400\n") != std::string::npos);
-  CHECK(plan_csv(plant.fleet, plant.plan).find(",,\n") != std::string::npos);
+  CHECK(csv_text(plan_table(plant.fleet, plant.plan, values)).find("checks_save\n") != std::string::npos);
+  CHECK(csv_text(plan_table(plant.fleet, plant.plan, values)).find(",321,400\n") != std::string::npos);
+  CHECK(csv_text(plan_table(plant.fleet, plant.plan)).find(",,\n") != std::string::npos);
 }
