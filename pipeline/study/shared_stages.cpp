@@ -33,6 +33,9 @@ bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage)
 /// Number of stages that a study takes from another study. The last stage is computed again, because it takes only seconds.
 constexpr std::size_t taken_count = stage_count - 1;
 
+/// In place of an output that is not given: remove_ours() leaves an empty file there, which must not get a receipt.
+const fs::path no_output;
+
 /// Name of the folder of a study's rigs, inside the study's folder (commands/making).
 constexpr const char* rigs = ".rigs";
 
@@ -95,7 +98,7 @@ bool take_up_to(const fs::path& from, const fs::path& to, const JobState& state,
       remove_ours(to / files.output);  // it belongs to the removed receipt
     }
     copy_if_there(from / files.log, to / files.log);
-    write_receipt(to / files.receipt, *receipt, to / files.output);
+    write_receipt(to / files.receipt, *receipt, needed(stage) ? to / files.output : no_output);
     input = receipt->output;
   }
   return true;
@@ -150,7 +153,7 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
     renew_receipt(from / files.receipt, from / files.output);  // the new hard link changed one of the file's times
   const std::optional<Receipt> receipt = read_receipt(from / files.receipt);
   for (const fs::path& to : folders)
-    if (receipt) write_receipt(to / files.receipt, *receipt, to / files.output);
+    if (receipt) write_receipt(to / files.receipt, *receipt, is_there ? to / files.output : no_output);
 }
 
 }  // namespace

@@ -312,7 +312,7 @@ TEST_CASE("build graph: a study takes what a study beside it has made, and both 
 }
 
 TEST_CASE("build graph: a job that takes results keeps no older output that the other job does not have") {
-  for (const bool beside : {false, true}) {
+  for (const auto& [beside, is_empty] : {std::pair{false, false}, {true, false}, {false, true}, {true, true}}) {
     Bench bench;
     const std::pair<std::string, std::string> one{"one", "fatigue.stress=elastic"};
     const Study source = bench.study({one});
@@ -323,11 +323,15 @@ TEST_CASE("build graph: a job that takes results keeps no older output that the 
     if (beside) both.jobs.erase(both.jobs.begin());
     both.keep = Keep::histories;
     if (!beside) fs::remove(bench.places().job("one") / "motion.h5");
+    const fs::path motion = bench.places().job("two") / "motion.h5";
+    if (is_empty) fs::resize_file(motion, 0);
     std::vector<JobState> states = states_of(both, bench.places());
     share_stages(both, bench.places(), states);
-    CHECK(states.back().next == 2);  // two has taken the strain
-    CHECK_FALSE(fs::exists(bench.places().job("two") / "motion.h5"));
-    CHECK(bench.run(both).executed == 1);
+    CHECK(states.back().next == (is_empty ? 0 : 2));  // 2: it has taken the strain
+    CHECK(states.back().damaged == (is_empty ? "motion.h5" : ""));
+    CHECK(fs::exists(motion) == is_empty);
+    CHECK(bench.run(both).executed == (is_empty ? 3 : 1));
+    CHECK_FALSE(fs::exists(motion));
     CHECK(bench.states().back().done());
   }
 }
