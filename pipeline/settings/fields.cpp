@@ -106,7 +106,8 @@ namespace {
 
 class FieldReader final : public Fields {
  public:
-  FieldReader(const Node& root, Problems& problems) : problems_(problems), passed_over_(problems.keys()) {
+  FieldReader(const Node& root, Problems& problems, Missing missing)
+      : problems_(problems), passed_over_(problems.keys()), missing_(missing) {
     if (!root.is_map())
       throw InputError(root.where, "holds no settings (a map of 'key: value' lines is expected)", "write some");
     levels_.emplace_back().map = &root;
@@ -297,7 +298,8 @@ class FieldReader final : public Fields {
     level.known.emplace_back(key);
     if (level.passed_over || (!passed_over_.empty() && passed_over_.contains(name_of(key)))) return;
     const Node* node = level.map->find(key);
-    if (!node && need == Need::required) level.missing.push_back({std::string(key), std::string(meaning)});
+    if (!node && need == Need::required && missing_ == Missing::refused)
+      level.missing.push_back({std::string(key), std::string(meaning)});
     if (!node) return;
     const std::string path = name_of(key);
     problems_.attempt(path, node->where, [&] {
@@ -428,6 +430,7 @@ class FieldReader final : public Fields {
 
   Problems& problems_;
   const std::set<std::string> passed_over_;  ///< keys that were refused before
+  const Missing missing_;
   std::vector<Level> levels_;
 };
 // ---- echo -------------------------------------------------------------------------------------------------
@@ -664,8 +667,8 @@ void read_fields(const Node& node, const Describe& described) {
   problems.finish(node.where.file);
 }
 
-void read_fields(const Node& node, const Describe& described, Problems& problems) {
-  FieldReader reader(node, problems);
+void read_fields(const Node& node, const Describe& described, Problems& problems, Missing missing) {
+  FieldReader reader(node, problems, missing);
   described(reader);
   reader.finish();
 }

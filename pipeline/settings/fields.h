@@ -129,9 +129,11 @@ using Describe = std::function<void(Fields&)>;
 
 /// Reads a struct from a map. Errors: InputErrors with all problems (see the file head).
 void read_fields(const Node& node, const Describe& described);
+/// Whether a required key may be missing.
+enum class Missing { refused, allowed };
 /// Reads a struct and adds its problems to `problems`. Skips keys that `problems` has refused already. A refused value does not
 /// change the struct.
-void read_fields(const Node& node, const Describe& described, Problems& problems);
+void read_fields(const Node& node, const Describe& described, Problems& problems, Missing missing = Missing::refused);
 /// Returns the text of a file path in a document. Without this function, paths are written as absolute paths.
 using PathText = std::function<std::string(const std::filesystem::path&)>;
 /// Writes a struct to a map, including defaults.

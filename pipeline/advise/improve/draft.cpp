@@ -88,6 +88,17 @@ void keep_settings(Node& routing, const Node* given) {
     if (const Node* value = given ? given->find(key) : nullptr; value && !routing.find(key)) routing[key] = *value;
 }
 
+/// Refuses unknown keys and wrong values of a given routing, which may lack keys.
+void check_given(const Node& given) {
+  Node document;
+  document["routing"] = given;
+  Routing routing;
+  Problems problems;
+  const Describe described([&](Fields& f) { f.group("routing", routing, Need::required, "The routing."); });
+  read_fields(document, described, problems, Missing::allowed);
+  problems.finish(given.where.file);
+}
+
 /// Returns clamps on the links, with placeholders for positions and length.
 Node links_only(const RouteRequest& request, const Robot& robot, const Node* given) {
   if (robot.links.size() < 2)
@@ -173,7 +184,9 @@ Draft draft_of(const RouteRequest& request) {
   const Robot robot = robot_of(whole);
   draft.exercise = !whole.find("motion");
   if (draft.exercise) whole["motion"] = standing(robot);
-  Node routing = links_only(request, robot, whole.find("routing"));
+  const Node* const given = whole.find("routing");
+  if (given && given->kind != Node::Kind::null) check_given(*given);
+  Node routing = links_only(request, robot, given);
   whole["routing"] = std::move(routing);
   draft.job = job_from(std::move(whole));
   return draft;

@@ -85,6 +85,19 @@ TEST_CASE("of a job all but the routing is kept, and what cannot be routed is re
                     Catch::Contains("a routing is proposed for one dresspack"));
   CHECK_THROWS_WITH(draft_of({.of = "no_such_thing"}), Catch::Contains("'no_such_thing' is not in the catalogue"));
   CHECK_THROWS_WITH(draft_of({.of = "side_panel", .tool_link = "link_9"}), Catch::Contains("link_9"));
+  // A routing may lack keys, but it has no others and no wrong values.
+  const Scratch scratch;
+  const auto of_routing = [&](const std::string& routing) {
+    return draft_of({.of = scratch.write("job.yaml", "robot: kuka_kr16_2\nrouting: " + routing + "\n").string(),
+                     .dresspack = "sensor_cable"});
+  };
+  for (const char* routing : {"{base_clamp: {link: link_2}, rings: [{link: link_4}]}", ""})
+    CHECK_NOTHROW(of_routing(routing));
+  CHECK_THROWS_WITH(of_routing("{base_clamp: {link: link_2, positon_m: [0, 0, 0.3]}}"),
+                    Catch::Contains("job.yaml:2:38: error: unknown key 'routing.base_clamp.positon_m'; did you mean "
+                                    "'position_m'?"));
+  CHECK_THROWS_WITH(of_routing("{sied: left}"), Catch::Contains("did you mean 'side'?"));
+  CHECK_THROWS_WITH(of_routing("{free_length_m: -2}"), Catch::Contains("routing.free_length_m is -2 (must be > 0"));
 }
 
 TEST_CASE("entries of a job stay references in its own folder, and in another one as far as they are files") {
