@@ -722,7 +722,7 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Wa
 }
 
 /// Warns of radians in the rounded form of controllers: no axis beyond a turn, and fractions of a degree.
-void doubt_mounting(const Routing& routing, const WarningsOfKind& add) {
+void doubt_mounting(const std::string& path, const Routing& routing, const WarningsOfKind& add) {
   std::vector<std::string> written, meant;
   double largest = 0;
   int parts = 0;
@@ -735,11 +735,11 @@ void doubt_mounting(const Routing& routing, const WarningsOfKind& add) {
   }
   if (parts < 2 || largest > most_radians) return;
   add(routing.where,
-      fmt::format("no angle of routing.mounting_pose_deg, [{}], is larger than {:.3g} deg (limit {:.3g} or more)",
+      fmt::format("no angle of {}.mounting_pose_deg, [{}], is larger than {:.3g} deg (limit {:.3g} or more)", path,
                   fmt::join(written, ", "), largest, most_radians),
       "radians instead of degrees",
       fmt::format(
-          "routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm was this near to its zero pose",
+          "{}.mounting_pose_deg: [{}] if those were radians; leave it if the arm was this near to its zero pose", path,
           fmt::join(meant, ", ")));
 }
 
@@ -755,7 +755,7 @@ std::string links_beside(const Robot& robot, const std::string& name, const Vect
 
 /// Warns of a clamp on the last link that lies far behind the flange, while the same numbers in the frame of the flange are before
 /// it. A bracket that reaches back half of the way to the centre of the wrist is in the way of axis 5.
-void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
+void doubt_flange_frame(const std::string& key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
   constexpr double least = 0.05;  // [m]: brackets of the tool reach back so far
   if (robot.links.empty() || clamp.link != robot.links.back().name || robot.joints.empty()) return;
   const Eigen::Quaterniond flange = from_roll_pitch_yaw(robot.flange_orientation);
@@ -764,9 +764,8 @@ void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot,
   if (behind <= std::max(least, wrist / 2) || clamp.position.z() < 0) return;
   const Vector3d meant = robot.flange_position + flange * clamp.position, to = flange * clamp.direction;
   add(clamp.where,
-      fmt::format(
-          "routing.{}.position_m lies {:.3g} m behind the flange (limit {:.3g}, half of the way to the wrist's centre)",
-          key, behind, std::max(least, wrist / 2)),
+      fmt::format("{}.position_m lies {:.3g} m behind the flange (limit {:.3g}, half of the way to the wrist's centre)",
+                  key, behind, std::max(least, wrist / 2)),
       "a place in the frame of the flange (tool0) instead of that of " + clamp.link,
       fmt::format(
           "position_m: [{:.4g}, {:.4g}, {:.4g}] and direction: [{:.3g}, {:.3g}, {:.3g}] if so; leave it if the bracket "
@@ -775,28 +774,30 @@ void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot,
 }
 
 /// Warns of a clamp at the origin of its link's frame, on the axis of a joint. At a flange it may be a hose through the tool.
-bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
+bool doubt_origin(const std::string& key, const Clamp& clamp, const Robot& robot, const WarningsOfKind& add) {
   const bool at_flange =
       !robot.links.empty() && clamp.link == robot.links.back().name && robot.flange_position.isZero();
   if (!clamp.position.isZero() || at_flange) return false;
   add(clamp.where,
-      fmt::format("routing.{}.position_m is [0, 0, 0], the origin of {}: inside of the robot, on the axis of a joint",
-                  key, clamp.link),
+      fmt::format("{}.position_m is [0, 0, 0], the origin of {}: inside of the robot, on the axis of a joint", key,
+                  clamp.link),
       "a place that was not filled in",
-      fmt::format("routing.{}.position_m of the bracket, in metres in the frame of {}: dresslife preview shows it by a "
+      fmt::format("{}.position_m of the bracket, in metres in the frame of {}: dresslife preview shows it by a "
                   "click on the link",
                   key, clamp.link));
   return true;
 }
 
 /// Warns of a clamp that is farther from its link than a bracket or a tool is long. near_limit: usual_distance().
-void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double near_limit, const Robot& robot,
-                 const WarningsOfKind& add) {
+void doubt_place(const std::string& path, const std::string& key, const Clamp& clamp, const Routing& routing,
+                 double near_limit, const Robot& robot, const WarningsOfKind& add) {
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
   const auto away = distance_to(robot, clamp.link, clamp.position);
   if (!away || doubt_origin(key, clamp, robot, add)) return;
   doubt_flange_frame(key, clamp, robot, add);
   const bool on_tool = clamp.link == robot.links.back().name;
+  const std::string longer_bracket =
+      fmt::format("or {}.longest_bracket_mm: {:.0f} if a bracket is so long", path, std::ceil(1e2 * *away) * 10);
   const std::string beside =
       on_tool || *away <= near_link ? "" : links_beside(robot, clamp.link, clamp.position, near_limit);
   for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
@@ -806,13 +807,12 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
     if (*away <= near_limit || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
     return add(
         clamp.where,
-        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link,
+        fmt::format("{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link,
                     near_limit),
         beside.empty() ? "exchanged coordinates" : fmt::format("exchanged coordinates, or a place on {}", beside),
         fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, ", exchanged.x(), exchanged.y(),
                     exchanged.z()) +
-            (beside.empty() ? "" : fmt::format("link: {} if it is there, ", beside)) +
-            fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long", std::ceil(1e2 * *away) * 10));
+            (beside.empty() ? "" : fmt::format("link: {} if it is there, ", beside)) + longer_bracket);
   }
   if (*away <= limit && (beside.empty() || *away <= bracket)) return;
   // Tries wrong decimal points in one, then two, then three numbers: the first combination near to the link is proposed.
@@ -825,8 +825,8 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
     if (nearest > near_link) best = other, nearest = *distance_to(robot, clamp.link, other);
   }
   add(clamp.where,
-      fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air",
-                  key, *away, clamp.link, std::min(limit, *away <= limit ? near_limit : limit)),
+      fmt::format("{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air", key, *away,
+                  clamp.link, std::min(limit, *away <= limit ? near_limit : limit)),
       beside.empty() ? "a decimal point at another place, another link or a place in another frame"
                      : fmt::format("a place on {}", beside),
       (beside.empty() ? "" : fmt::format("link: {} if it is there; ", beside)) +
@@ -835,19 +835,18 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
                                 : std::string("position_m in the frame of the link; ")) +
           (on_tool ? fmt::format("or the shape of the tool as robot.links.{}.boxes, if it is clamped to a large tool",
                                  robot.links.size())
-                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long",
-                                 std::ceil(1e2 * *away) * 10)));
+                   : longer_bracket));
 }
 
 /// Warns of angles about the axes, in the form of controllers, instead of a direction.
-void doubt_direction(const char* key, const Clamp& clamp, const WarningsOfKind& add) {
+void doubt_direction(const std::string& key, const Clamp& clamp, const WarningsOfKind& add) {
   constexpr double round_angle = 5, most = 360;
   const Vector3d& to = clamp.direction;
   for (const double number : to)
     if (std::abs(number) > most || std::abs(std::remainder(number, round_angle)) > 1e-9) return;
   const Vector3d unit = to.normalized();
   add(clamp.where,
-      fmt::format("routing.{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(),
+      fmt::format("{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(),
                   round_angle),
       "angles in degrees instead of a vector",
       fmt::format(
@@ -857,7 +856,8 @@ void doubt_direction(const char* key, const Clamp& clamp, const WarningsOfKind& 
 
 auto link_of(const Robot& robot, const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); }
 
-void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const WarningsOfKind& add) {
+void doubt_order_of_clamps(const std::string& path, const Routing& routing, const Robot& robot,
+                           const WarningsOfKind& add) {
   if (!clamps_exchanged(routing, robot)) return;
   const auto base = link_of(robot, *routing.base_clamp), tool = link_of(robot, *routing.tool_clamp);
   const auto away = [&](const Link& link, const Clamp& clamp) {
@@ -866,35 +866,36 @@ void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const War
   const bool links = away(*tool, *routing.base_clamp) + away(*base, *routing.tool_clamp) <
                      away(*base, *routing.base_clamp) + away(*tool, *routing.tool_clamp);
   add(routing.base_clamp->where,
-      fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base",
+      fmt::format("{0}.base_clamp is on {1}, and {0}.tool_clamp on {2}, which is nearer to the robot's base", path,
                   base->name, tool->name),
       "exchanged clamps, or exchanged links",
-      links
-          ? fmt::format(
-                "routing.base_clamp.link: {} and routing.tool_clamp.link: {}: then both places are nearer to their links",
-                tool->name, base->name)
-          : std::string("exchange base_clamp and tool_clamp"));
+      links ? fmt::format(
+                  "{0}.base_clamp.link: {1} and {0}.tool_clamp.link: {2}: then both places are nearer to their links",
+                  path, tool->name, base->name)
+            : std::string("exchange base_clamp and tool_clamp"));
 }
 
-void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
-                   const WarningsOfKind& add) {
-  doubt_mounting(routing, add);
-  doubt_order_of_clamps(routing, robot, add);
+/// path: key of the routing in the job (line_key()).
+void doubt_routing(const std::string& path, const Routing& routing, const Dresspack& dresspack, const Robot& robot,
+                   int segments, const WarningsOfKind& add) {
+  doubt_mounting(path, routing, add);
+  doubt_order_of_clamps(path, routing, robot, add);
   const bool centimetres = routing.free_length < shortest_in_mm;
-  add.number(routing.where, "routing.free_length_m", "", routing.free_length, {0, longest_hose},
+  add.number(routing.where, path + ".free_length_m", "", routing.free_length, {0, longest_hose},
              {centimetres ? OtherUnit{1e-2, "centimetres instead of metres", "centimetres"} : from_millimetres});
-  for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
+  for (const auto& [key, clamp] :
+       {std::pair{path + ".base_clamp", &routing.base_clamp}, {path + ".tool_clamp", &routing.tool_clamp}}) {
     if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
       const Eigen::Vector3d& at = (*clamp)->position;
       add((*clamp)->where,
-          fmt::format("routing.{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(),
+          fmt::format("{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(),
                       farthest_clamp),
           "centimetres instead of metres, or a place in the world",
           fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100,
                       at.z() / 100));
     } else if (*clamp && &**clamp != clamp_on_wrong_link(routing, robot)) {
-      doubt_place(key, **clamp, routing, usual_distance(routing, dresspack), robot, add);
+      doubt_place(path, key, **clamp, routing, usual_distance(routing, dresspack), robot, add);
     }
   }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
@@ -912,16 +913,16 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   if (const double twist = std::abs(routing.pre_twist);
       (twist > 0 && twist < least_pre_twist && simple) || twist > largest_pre_twist)
     add(routing.where,
-        fmt::format("routing.pre_twist_deg is {:.4g} (limits {:.3g} .. {:g})", routing.pre_twist / degree,
+        fmt::format("{}.pre_twist_deg is {:.4g} (limits {:.3g} .. {:g})", path, routing.pre_twist / degree,
                     least_pre_twist / degree, largest_pre_twist / degree),
         twist < least_pre_twist ? "radians or turns instead of degrees" : "another unit",
         twist < least_pre_twist
-            ? fmt::format("routing.pre_twist_deg: {:.4g} if that was radians", routing.pre_twist / degree / degree)
-            : "routing.pre_twist_deg: -180 .. 180");
+            ? fmt::format("{}.pre_twist_deg: {:.4g} if that was radians", path, routing.pre_twist / degree / degree)
+            : path + ".pre_twist_deg: -180 .. 180");
   if (const double bracket = routing.longest_bracket.value_or(0); bracket > 0)
-    add.number(routing.where, "routing.longest_bracket_mm", "", 1e3 * bracket,
+    add.number(routing.where, path + ".longest_bracket_mm", "", 1e3 * bracket,
                {1e3 * shortest_bracket, 1e3 * longest_built, ", or 0"}, {from_metres},
-               {"another unit", "routing.longest_bracket_mm: 150"});
+               {"another unit", path + ".longest_bracket_mm: 150"});
   for (const GuideRing& ring : routing.rings)
     add.number(
         ring.where, "radius_mm", " of a ring", 1e3 * ring.radius,
@@ -980,16 +981,6 @@ void doubt_order_of_quaternions(const Motion& motion, const WarningsOfKind& add)
     }
 }
 
-/// Replaces `routing.KEY` by the key of a job with a list of dresspacks.
-std::vector<Warning> with_keys_of(const Job& job, std::size_t dresspack, std::vector<Warning> warnings) {
-  const std::string_view alone = "routing.";
-  const std::string own = line_key(job, dresspack, std::string(alone));
-  for (Warning& warning : warnings)
-    for (std::size_t at = 0; (at = warning.words.find(alone, at)) != std::string::npos; at += own.size())
-      warning.words.replace(at, alone.size(), own);
-  return warnings;
-}
-
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
   const WarningsOfKind doubt(warnings, WarningKind::motion), periodic(warnings, WarningKind::periodic);
@@ -998,17 +989,14 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   doubt_order_of_quaternions(job.motion, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
   doubt_boxes(job.cell, job.robot, doubt);
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
-    std::vector<Warning> of_routing;
-    doubt_routing(job.dresspacks[d].routing, job.dresspacks[d].dresspack, job.robot, job.simulation.segments,
-                  WarningsOfKind(of_routing, WarningKind::motion));
-    warnings = joined(std::move(warnings), with_keys_of(job, d, std::move(of_routing)));
-  }
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    doubt_routing(line_key(job, d, "routing"), job.dresspacks[d].routing, job.dresspacks[d].dresspack, job.robot,
+                  job.simulation.segments, doubt);
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.robot), "robot"));
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    warnings = joined(std::move(warnings),
-                      with_keys_of(job, d, radians_in(echo_fields(job.dresspacks[d].routing), "routing")));
+    warnings =
+        joined(std::move(warnings), radians_in(echo_fields(job.dresspacks[d].routing), line_key(job, d, "routing")));
   periodic.number({}, "simulation.most_repeats", "", job.simulation.most_repeats, {0, repeats_to_steady}, {},
                   {"the repeats in the dresspack's life: the life is extrapolated from one repeat",
                    "simulation.most_repeats: 8, or no key"});
