@@ -120,6 +120,7 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
   for (const Warning& warning : warnings_of(row)) fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
+  if (has_paths(row)) fact("paths in warnings", "relative to the study's folder, which contains that of this page");
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces", fmt::format("at most {:.2g} of the force that breaks a cable", *row.largest_force_share));

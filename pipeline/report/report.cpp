@@ -291,16 +291,17 @@ std::string facts(const RankingRow& row) {
                                     100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
                                     escaped(failing_place_words(row))));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
-  const auto bounds = [&](const char* name, double glued, double free) {
+  const auto bounds = [&](const char* name, double glued, double free, const char* endless) {
+    const auto text = [&](double hours) { return std::isinf(hours) ? endless : printed_hours(hours); };
     fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",
-                           printed_hours(glued), printed_hours(free)));
+                           text(glued), text(free)));
   };
   const std::array<const char*, 3> shares{"bounds of 10 % failed", "bounds of half failed", "bounds of 90 % failed"};
   for (std::size_t i = 0; i < shares.size() && !std::isnan(row.glued_hours[0]); ++i)
-    bounds(shares[i], row.glued_hours[i], row.free_hours[i]);
+    bounds(shares[i], row.glued_hours[i], row.free_hours[i], "never");
   if (row.has_wires())
     bounds("bounds of the worst wire", row.hours_of(row.life_repeats_all_stick),
-           row.hours_of(row.life_repeats_all_free));
+           row.hours_of(row.life_repeats_all_free), "no damage");
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.hours_mean_stress_kept)
     fact("mean stress",
@@ -442,6 +443,9 @@ std::string report_page(const std::string& study, const std::vector<RankingRow>&
                         std::vector<ReportProblem>& problems) {
   const std::vector<bool> detailed = detailed_jobs(rows);
   std::string body = summary(rows) + ranking_section(rows, detailed);
+  if (std::ranges::any_of(rows, has_paths))
+    body += fmt::format("<p class=\"soft\">Paths in warnings are relative to the folder of this report, {}.</p>\n",
+                        escaped(study));
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (detailed[i]) body += job_section(rows[i], i + 1, problems);
   return table_page(study + ": dresspack life", study + ": dresspack life by motion", body);

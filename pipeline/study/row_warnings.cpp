@@ -74,6 +74,11 @@ std::vector<Warning> warnings_of(const RankingRow& row) {
   return {{WarningKind::force, "", force_words(row)}};
 }
 
+bool has_paths(const RankingRow& row) {
+  return std::ranges::any_of(warnings_of(row),
+                             [](const Warning& warning) { return warning.where.find('/') != std::string::npos; });
+}
+
 std::string warning_kinds(const RankingRow& row, bool with_other_values) {
   const std::vector<Warning> warnings = warnings_of(row);
   std::vector<std::string> words;

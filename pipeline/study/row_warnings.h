@@ -12,6 +12,9 @@ namespace dresslife::pipeline {
 /// forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
+/// Returns whether a warning names a file by its path from the folder of the study.
+bool has_paths(const RankingRow& row);
+
 /// Words of the warning of a calibration whose records contradict its prediction.
 inline constexpr const char* records_contradict = "the records contradict the prediction";
 /// Returns whether a plan must not use the hours of a job with this warning, by its kind or because of such a calibration.

@@ -259,7 +259,9 @@ std::string shown_life(const RankingRow& row, double hours) {
 }
 
 std::string shown_range(const RankingRow& row, double low_hours, double high_hours) {
-  return std::isnan(low_hours) ? "-" : shown_life(row, low_hours) + " .. " + shown_life(row, high_hours);
+  const bool never = row.planned() && std::isinf(row.headline_hours());  // some dresspacks may still be damaged
+  const auto end = [&](double hours) { return never && std::isinf(hours) ? "never" : shown_life(row, hours); };
+  return std::isnan(low_hours) ? "-" : end(low_hours) + " .. " + end(high_hours);
 }
 
 std::string shown_calendar(const RankingRow& row) {
@@ -274,9 +276,10 @@ std::string uncapped_words(const RankingRow& row) {
                                  hours_text(tenth), calendar_text(row.planned_months));
   if (std::isfinite(half)) text += ", half after " + hours_text(half);
   if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
+  const auto after = [](double hours) { return std::isinf(hours) ? "never" : "after " + hours_text(hours); };
   if (!std::isnan(row.glued_hours[0]))
-    text += fmt::format("; with everything in the cables glued .. free, 1 of 10 after {}",
-                        range_text(row.glued_hours[0], row.free_hours[0]));
+    text += fmt::format("; 1 of 10 {} with everything in the cables glued, {} with everything free",
+                        after(row.glued_hours[0]), after(row.free_hours[0]));
   return text +
          fmt::format(". Hours beyond the robot's life ({} h) only compare jobs.", readable(row.robot_life_hours));
 }

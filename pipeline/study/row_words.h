@@ -43,7 +43,7 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows);
 
 /// Returns a life for a table: "1,300", or "over 40,000" beyond the robot's own life (fatigue.robot_life_hours).
 std::string shown_life(const RankingRow& row, double hours);
-/// Returns a range of lives: "1,300 .. over 40,000".
+/// Returns the range between a life's bounds: "1,300 .. over 40,000". "never": fewer dresspacks fail.
 std::string shown_range(const RankingRow& row, double low_hours, double high_hours);
 /// Returns the headline in calendar time: "7.2 months", or "over 9.6 years".
 std::string shown_calendar(const RankingRow& row);

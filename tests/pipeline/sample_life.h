@@ -35,6 +35,7 @@ struct SampleLife {
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
+  std::string warnings{};  ///< warnings_text(); empty: none
 };
 
 /// Writes a consistent life file: the shares add up, and the named worst wire has the largest damage.
@@ -219,6 +220,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   if (!sample.wall_response.empty()) writer.attribute("wall_response", sample.wall_response);
   writer.attribute("unvalidated_modes", unvalidated);
   writer.attribute("not_evaluated", sample.unvalidated.empty() ? "" : "water hose, kinks");
+  if (!sample.warnings.empty()) writer.attribute("warnings", sample.warnings);
   writer.attribute("job", sample.job);
   writer.attribute(
       "history",

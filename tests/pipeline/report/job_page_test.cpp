@@ -176,6 +176,11 @@ TEST_CASE("job page: a life alone makes a page, whatever its names are") {
   CHECK(page.find("<h1>&lt;/title&gt;&lt;b&gt;job &amp; &quot;co&quot;</h1>") != std::string::npos);
   CHECK(page.find("motion.h5 is not there") != std::string::npos);
   CHECK(page.find("strain.h5 is not there") != std::string::npos);
+  const std::string from = "relative to the study's folder, which contains that of this page";
+  CHECK(page.find(from) == std::string::npos);
+  life.warnings = warnings_text({{WarningKind::motion, "job/job.yaml:4:3", "too fast"}});
+  write_sample_life(scratch / "life.h5", life);
+  CHECK(job_page(files).find(from) != std::string::npos);
 }
 
 TEST_CASE("job page: nothing is fetched from anywhere") {

@@ -427,10 +427,18 @@ TEST_CASE("report: each fact of a job has the row's own number") {
     CHECK((page.find(words) == std::string::npos && strained.find(words) != std::string::npos));
   constexpr double infinite = std::numeric_limits<double>::infinity();
   row.planned_hours = row.first_wire_hours = {infinite, infinite, infinite}, row.conductor_hours[2] = infinite;
+  row.free_hours = {1.1e4, infinite, infinite}, row.life_repeats_all_free = infinite;
   CHECK_THAT(page_of("planned", rows),
              Catch::Contains("<dd>in more than 90 % of the samples no conductor fails</dd>") &&
+                 Catch::Contains("<dt>bounds of half failed</dt><dd>12.0 h" + glued + "never" + free) &&
+                 Catch::Contains("<dt>bounds of the worst wire</dt><dd>14.0 h" + glued + "no damage" + free) &&
                  Catch::Contains("<dd>in fewer than 10 %" + by_scatter) &&
                  Catch::Contains("<dd>by 41.0 h in 10 %, 42.0 h in half" + by_scatter));
+  const std::string from = "Paths in warnings are relative to the folder of this report, planned.";
+  row.warnings = {{WarningKind::motion, "", "too fast"}, {WarningKind::program, "spot.mod:6", "skipped"}};
+  CHECK_THAT(page_of("planned", rows), !Catch::Contains(from));
+  row.warnings = {{WarningKind::motion, "one/job.yaml:4:3", "too fast"}};
+  CHECK_THAT(page_of("planned", rows), Catch::Contains("one/job.yaml:4:3: too fast") && Catch::Contains(from));
 }
 
 }  // namespace

@@ -637,6 +637,17 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   CHECK(table.find("\n\nshort\n   job.yaml:3:1: error: too short; make it longer\n") != std::string::npos);
 }
 
+TEST_CASE("ranking: a bound that fewer than 10 % reach is no life without damage") {
+  RankingRow row;
+  row.life_hours = 5e5, row.planned_hours = {5e4, infinity, infinity}, row.planned_months = 150;
+  row.robot_life_hours = 4e4, row.glued_hours = {2410, 1e6, infinity}, row.free_hours = {infinity, infinity, infinity};
+  CHECK_THAT(uncapped_words(row),
+             Catch::Contains("1 of 10 after 2,410 h with everything in the cables glued, never with everything free."));
+  CHECK(shown_range(row, row.glued_hours[0], row.free_hours[0]) == "2,410 .. over 40,000");
+  row.planned_hours[0] = infinity;
+  CHECK(shown_range(row, row.glued_hours[0], row.free_hours[0]) == "2,410 .. never");
+}
+
 TEST_CASE(
     "ranking: jobs are ranked and reported by the life that 10 % do not reach, without a plan by the worst wire") {
   const Scratch scratch;
