@@ -880,6 +880,19 @@ Value Interpreter::binary(const Expression& expression) {
   return applied(expression.text, first, evaluate(expression.items[1]), expression.place);
 }
 
+/// Returns the value of an operator on two lists of one length, or on a list and a number. Records and products of matrices are
+/// not read.
+Value Interpreter::by_item(const std::string& op, const Value& a, const Value& b, const Place& place) {
+  const Value& list = a.kind == Value::Kind::list ? a : b;
+  const bool two_lists = a.kind == b.kind, matrices = op == "*" && a.depth() + b.depth() > 2;
+  if (a.type || b.type || matrices || (two_lists && a.items.size() != b.items.size())) return {};
+  std::vector<Value> items;
+  for (std::size_t i = 0; i < list.items.size(); ++i)
+    items.push_back(
+        applied(op, two_lists || &list == &a ? a.items[i] : a, two_lists || &list == &b ? b.items[i] : b, place));
+  return list_value(std::move(items));
+}
+
 Value Interpreter::applied(const std::string& op, Value a, Value b, const Place& place) {
   const auto round = [&](Value& value, double (*rounded)(double)) {
     if (dialect_.has_single_precision() && value.is_number()) value.number = rounded(value.number);
@@ -894,7 +907,8 @@ Value Interpreter::applied(const std::string& op, Value a, Value b, const Place&
     return unknown_value(as_number(a, b), as_number(b, a));
   if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) {
     if (const Value relation = compared(op, a, b); relation.known()) return relation;
-    if (const Value result = computed_lists(op, a, b); result.known()) return result;
+    const bool items = dialect_.computes_by_item();
+    if (Value result = items ? by_item(op, a, b, place) : computed_lists(op, a, b); result.known()) return result;
     return unknown_value(a, b);
   }
   if (a.kind != b.kind || (a.kind == Value::Kind::text && op != "+")) {  // KRL: a CHAR is the number of its letter

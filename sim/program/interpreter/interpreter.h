@@ -115,6 +115,8 @@ class Dialect {
   virtual std::optional<double> letter(const Value&) const { return {}; }
   /// Whether the controller computes with numbers of single precision: a loop that adds 0.1 ends after ten passes at 1.
   virtual bool has_single_precision() const { return true; }
+  /// Whether operators take lists item by item, also a list and a number.
+  virtual bool computes_by_item() const { return false; }
   /// Handles an instruction of an undecided branch: it may have run or not.
   virtual void may_have_run(const Statement&, const Cause&) {}
   /// Returns the value of a variable that is declared without a value.
@@ -313,6 +315,7 @@ class Interpreter {
   Value binary(const Expression& expression);
   Value mixed(const Expression& expression);
   Value applied(const std::string& op, Value a, Value b, const Place& place);
+  Value by_item(const std::string& op, const Value& a, const Value& b, const Place& place);
   Value aggregate(const Expression& expression);
   void shape_elements(Value& value, const RecordType* type, std::size_t levels) const;
   Value* locate(const Expression& expression);

@@ -1,6 +1,7 @@
 #include "sim/program/urscript/urscript.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -21,6 +22,7 @@ struct Signature {
   Instruction::Kind kind;
   std::vector<const char*> arguments;
   double acceleration, speed;  ///< defaults; [rad/s2, rad/s] of joint moves, else [m/s2, m/s]
+  double least_time = 0;       ///< of a call [s], which is also its default; 0: the speed counts
 };
 
 const Signature* move_of(const std::string& name) {
@@ -30,7 +32,7 @@ const Signature* move_of(const std::string& name) {
       {"movel", Kind::linear, {"pose", "a", "v", "t", "r"}, 1.2, 0.25},
       {"movep", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25},
       {"movec", Kind::circular, {"pose_via", "pose_to", "a", "v", "r", "mode"}, 1.2, 0.25},
-      {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0},
+      {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0, 0.002},
       {"servoc", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25}};
   const auto found = std::ranges::find_if(moves, [&](const Signature& m) { return name == m.name; });
   return found == moves.end() ? nullptr : &*found;
@@ -58,10 +60,14 @@ class Script final : public Dialect {
     for (const Expression& argument : call.items)
       if (argument.option.empty()) values.push_back(run_->evaluate(argument));
     if (call.text == "p") return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
+    if (call.text.starts_with("run ")) return run_thread(call.text, call.place), Value{};
     if (call.text == "get_inverse_kin") return inverse_kinematics(call, values);
-    if (call.text == "get_forward_kin") return forward_kinematics(values);
+    if (call.text == "get_forward_kin") return forward_kinematics(call, values);
     if (std::optional<Value> known = arithmetic(call.text, values)) return known;
-    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_) return *standing_;
+    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"})) {
+      if (standing_) return *standing_;
+      if (const auto pose = axes_ ? pose_at(*axes_) : std::nullopt) return *pose;
+    }
     if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
       return *axes_;
     if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
@@ -74,10 +80,7 @@ class Script final : public Dialect {
     if (const Signature* signature = move_of(name)) return move(*signature, statement), true;
     if (name == "sleep") return sleep(statement), true;
     if (name == "set_tcp") return set_tcp(statement), true;
-    if (name == "run") {
-      const Routine* thread = code_.find(statement.text.substr(std::string_view("run ").size()), -1);
-      return run_thread(thread, statement), true;
-    }
+    if (name == "run") return run_thread(statement.text, statement.place), true;
     if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode", "path_offset",
                                "conveyor_", "track_conveyor"}) &&
         !name.ends_with("_stop") && !name.starts_with("end_")) {
@@ -109,6 +112,7 @@ class Script final : public Dialect {
   Value initial(const std::string&) const override { return {}; }
   int first_index() const override { return 0; }
   bool has_single_precision() const override { return false; }
+  bool computes_by_item() const override { return true; }
 
  private:
   const RecordType* record(const char* name) const { return code_.record(name); }
@@ -164,12 +168,24 @@ class Script final : public Dialect {
     return near.known() ? list_value({values[0], near}, record("inverse")) : unknown_value(near);
   }
 
-  Value forward_kinematics(const std::vector<Value>& values) {
-    if (values.empty() && axes_) return list_value({*axes_}, record("forward"));
-    if (values.empty() && standing_) return *standing_;
-    if (values.size() == 1 && values[0].known()) return list_value({values[0]}, record("forward"));
-    return values.size() == 1 && !values[0].known() ? unknown_value(values[0])
-                                                    : unknown_value("", "asks for the robot's kinematics");
+  /// Returns the tool's pose at joint angles; std::nullopt: the robot of six axes or its tool is not known.
+  std::optional<Value> pose_at(const Value& axes) const {
+    const auto angles = joints_in(axes);
+    if (!angles || angles->size() != 6 || !tcp_ || !run_->options().flange) return {};
+    std::array<double, 6> six;
+    std::ranges::copy(*angles, six.begin());
+    return pose_value(run_->options().flange(six) * tcp_->frame);
+  }
+
+  Value forward_kinematics(const Expression& call, const std::vector<Value>& values) {
+    if (call.items.size() > 1) return unknown_value("", "is the forward kinematics of another tool");
+    const std::optional<Value> axes = call.items.empty() ? axes_
+                                      : values.empty()   ? run_->evaluate(call.items[0])
+                                                         : values[0];
+    if (const auto pose = axes ? pose_at(*axes) : std::nullopt) return *pose;
+    if (axes && axes->known()) return list_value({*axes}, record("forward"));
+    if (!axes && standing_) return *standing_;
+    return axes ? unknown_value(*axes) : unknown_value("", "asks for the robot's kinematics");
   }
 
   std::optional<Value> arithmetic(const std::string& name, const std::vector<Value>& values) {
@@ -179,11 +195,12 @@ class Script final : public Dialect {
         {"acos", [](double x) { return std::acos(x); }}, {"atan", [](double x) { return std::atan(x); }},
         {"sqrt", [](double x) { return std::sqrt(x); }}, {"floor", [](double x) { return std::floor(x); }},
         {"ceil", [](double x) { return std::ceil(x); }}, {"d2r", [](double x) { return x * degree; }},
-        {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }}};
+        {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }},
+        {"norm", [](double x) { return std::abs(x); }}};
     const auto unknown = std::ranges::find_if(values, [](const Value& v) { return !v.known(); });
-    const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"});
+    const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"}) || name == "inv";
     const auto function = plain.find(name);
-    const bool two = name == "atan2" || name == "pow";
+    const bool two = name == "atan2" || name == "pow" || name == "log";
     const bool list = name == "norm" || name == "length" || name == "get_list_length" || name == "point_dist";
     const bool turn = name == "rpy2rotvec" || name == "rotvec2rpy";
     if (function == plain.end() && !pose_function && !two && !list && !turn) return {};
@@ -191,9 +208,10 @@ class Script final : public Dialect {
     const auto number = [](double value) { return std::isfinite(value) ? number_value(value) : Value{}; };
     if (function != plain.end() && values.size() == 1 && values[0].is_number())
       return number(function->second(values[0].number));
-    if (two && values.size() == 2 && values[0].is_number() && values[1].is_number())
-      return number(name == "pow" ? std::pow(values[0].number, values[1].number)
-                                  : std::atan2(values[0].number, values[1].number));
+    if (two && values.size() == 2 && values[0].is_number() && values[1].is_number()) {
+      const double a = values[0].number, b = values[1].number;
+      return number(name == "pow" ? std::pow(a, b) : name == "log" ? std::log(b) / std::log(a) : std::atan2(a, b));
+    }
     if (list && values.size() == 1 && values[0].kind == Value::Kind::list) {
       double squares = 0;
       for (const Value& item : values[0].items) squares += item.number * item.number;
@@ -220,11 +238,12 @@ class Script final : public Dialect {
   Value pose_arithmetic(const std::string& name, const std::vector<Value>& values) const {
     const auto a = values.empty() ? std::nullopt : pose_in(values[0]);
     const auto b = values.size() < 2 ? std::nullopt : pose_in(values[1]);
-    if (a && name == "pose_inv") return pose_value(inverse(*a));
+    if (a && (name == "pose_inv" || name == "inv")) return pose_value(inverse(*a));
     if (!a || !b) return unknown_value("", fmt::format("is {} of what is no pose", name));
     if (name == "pose_trans") return pose_value(*a * *b);
     if (name == "pose_add") return pose_value({a->position + b->position, a->orientation * b->orientation});
-    if (name == "pose_sub") return pose_value({a->position - b->position, a->orientation * b->orientation.conjugate()});
+    if (name == "pose_sub")  // pose_add(b, pose_sub(a, b)) is a
+      return pose_value({a->position - b->position, b->orientation.conjugate() * a->orientation});
     if (name == "point_dist") return number_value((a->position - b->position).norm());
     if (name == "interpolate_pose" && values.size() == 3 && values[2].is_number()) {
       const double u = values[2].number;
@@ -295,15 +314,16 @@ class Script final : public Dialect {
                r = number(signature, statement, "r", 0);
     if (!a || !v || !t || !r) return false;
     const bool joints = signature.kind == Instruction::Kind::joint;
-    if (*t > 0) {
-      move.speed.duration = *t;
+    const double time = std::max(*t, signature.least_time);
+    if (time > 0) {
+      move.speed.duration = time;
     } else if (*v > 0) {
       (joints ? move.speed.axis : move.speed.tool) = *v;
-    } else if (std::string_view(signature.name) != "servoj") {
+    } else {
       run_->complain(statement.place, "has a speed of 0", "write a speed above 0");
       return false;
     }
-    if (*t == 0 && *a > 0) (joints ? move.speed.axis_acceleration : move.speed.tool_acceleration) = *a;
+    if (time == 0 && *a > 0) (joints ? move.speed.axis_acceleration : move.speed.tool_acceleration) = *a;
     move.zone.distance = *r;
     if (std::string_view(signature.name).starts_with("servo"))
       move.zone = {0, 100};  // a stream of targets has no stops
@@ -390,11 +410,13 @@ class Script final : public Dialect {
     standing_.reset();  // the pose belongs to the previous tool
   }
 
-  void run_thread(const Routine* thread, const Statement& statement) {
+  /// call: "run NAME"
+  void run_thread(const std::string& call, const Place& place) {
     constexpr int deepest = 8;  // largest depth of calls
+    const Routine* const thread = code_.find(call.substr(std::string_view("run ").size()), -1);
     const auto steers = [&](const Statement& s) { return s.kind == Statement::Kind::instruction && matters(s.name); };
-    const std::string name = thread ? thread->written : statement.text;
-    run_->note(statement.place,
+    const std::string name = thread ? thread->written : call;
+    run_->note(place,
                fmt::format("thread {}: runs beside the program, and is left out; motion.routine: {} reads it alone",
                            name, name),
                !thread || code_.reaches(thread->body, thread->module, deepest, steers));

@@ -37,10 +37,10 @@ TEST_CASE("urscript: moves with their speeds, accelerations, times and blends") 
       "movej([0.1,-1.2,1.3,0,0.5,0], a=1.4, v=1.05)\nmovel(p[0.4,-0.2,0.3,0,pi_,0], 0.8, 0.3, 0, 0.02)\n"
       "movej(p[0.4,0.2,0.3,0,0,0], t=2.5)\nmovep(p[0.5,0.2,0.3,0,0,0], v=0.1, r=0.01)\n"
       "movec(p[0.6,0.3,0.3,0,0,0], p[0.7,0.2,0.3,0,0,0], v=0.2)\nmovej([0,0,0,0,0,0])\nsleep(0.75)\n"
-      "servoj([0,0,0,0,0,0.1], t=0.1)\nmovel([0,0,0,0,0,0.2])\n",
+      "servoj([0,0,0,0,0,0.1], t=0.1)\nmovel([0,0,0,0,0,0.2])\nservoj([0,0,0,0,0,0.2], 1, 1, gain=500)\n",
       given({{"pi_", "3.141592653589793"}}));
   REQUIRE(r.problem() == "no such problem");
-  REQUIRE(r.program.instructions.size() == 9);
+  REQUIRE(r.program.instructions.size() == 10);
   CHECK(r.move(0).target.joints == std::vector<double>{0.1, -1.2, 1.3, 0, 0.5, 0});
   CHECK(r.move(0).speed.axis.value() == 1.05);
   CHECK(r.move(0).speed.axis_acceleration.value() == 1.4);
@@ -65,6 +65,8 @@ TEST_CASE("urscript: moves with their speeds, accelerations, times and blends") 
   CHECK(r.move(7).speed.duration.value() == 0.1);
   CHECK(r.move(8).kind == Instruction::Kind::linear);
   CHECK(r.move(8).speed.tool.value() == 0.25);
+  CHECK(r.move(9).speed.duration.value() == 0.002);  // the default; a and v of servoj do nothing
+  CHECK(!r.move(9).speed.axis);
 }
 
 TEST_CASE("urscript: what PolyScope writes: waypoints with the joint angles that were taught") {
@@ -127,6 +129,50 @@ TEST_CASE("urscript: roll, pitch and yaw are about the axes of the base, one aft
   }
 }
 
+TEST_CASE("urscript: functions give the numbers of the manual's examples, and operators take lists item by item") {
+  // Script manual, modules urmath and "matrix and array expressions"; its numbers have five digits.
+  const Reading r = program(
+      "movel(inv(p[.2,.5,.1,1.57,0,3.14]))\nmovel(pose_trans(p[.2,.5,.1,1.57,0,0], p[.2,.5,.6,1.57,0,0]))\n"
+      "movej([norm(-5.3),norm(p[-.2,.2,-.2,-1.57,0,3.14]),log(10.,4.),0,0,0])\n"
+      "a = [10,20,30] * [1,2,3]\nb = [10,20,30] / [1,2,5] + 1\nmovej([a[0],a[1],a[2],b[0],b[1],b[2]])\n"
+      "movej([1,2,3,4,5,6] - 2 * [0,0,0,1,1,1])\n"
+      "f = p[1,2,3,0,0,d2r(90)]\nt = p[4,5,6,d2r(90),0,0]\nmovel(pose_add(f, pose_sub(t, f)))\nmovel(pose_sub(t, f))\n");
+  REQUIRE(r.problem() == "no such problem");
+  constexpr double digits = 5e-5;
+  const auto turn = [&](std::size_t i) { return rotation_vector(r.move(i).target.pose.orientation); };
+  CHECK((r.move(0).target.pose.position - Vector3(0.19324, 0.41794, -0.29662)).norm() < digits);
+  CHECK((turn(0) - Vector3(1.23993, 0, 2.47985)).norm() < digits);
+  CHECK((r.move(1).target.pose.position - Vector3(0.4, -0.0996, 0.60048)).norm() < digits);
+  CHECK((turn(1) - Vector3(3.14, 0, 0)).norm() < digits);
+  CHECK(r.move(2).target.joints[0] == Approx(5.3));
+  CHECK(r.move(2).target.joints[1] == Approx(3.52768).margin(digits));
+  CHECK(r.move(2).target.joints[2] == Approx(0.60206).margin(digits));
+  CHECK(r.move(3).target.joints == std::vector<double>{10, 40, 90, 11, 11, 7});
+  CHECK(r.move(4).target.joints == std::vector<double>{1, 2, 3, 2, 3, 4});
+  CHECK((r.move(5).target.pose.position - Vector3(4, 5, 6)).norm() < rounding);
+  CHECK((turn(5) - Vector3(pi / 2, 0, 0)).norm() < rounding);
+  // t as seen from f: -90 deg about z after 90 deg about x. x of t is -y of f, z of t is -y of the base and -x of f.
+  CHECK((r.move(6).target.pose.orientation * Vector3::UnitX() + Vector3::UnitY()).norm() < rounding);
+  CHECK((r.move(6).target.pose.orientation * Vector3::UnitZ() + Vector3::UnitX()).norm() < rounding);
+}
+
+TEST_CASE("urscript: the pose after a move to joint angles is that of the job's robot with its tool") {
+  ImportOptions on_robot;
+  on_robot.flange = [](const std::array<double, 6>& q) { return Frame{{q[0], q[1], 1}, rotation({0, 0, pi / 2})}; };
+  const std::string lines =
+      "movej([0.5,0.25,0,0,0,0])\nmovel(pose_trans(get_actual_tcp_pose(), p[0.1,0,0.2,0,0,0]))\n"
+      "place = get_forward_kin([0.3,0.4,0,0,0,0])\nplace[2] = place[2] + 1\nmovel(place)\n";
+  const Reading r = program(lines, on_robot);
+  REQUIRE(r.problem() == "no such problem");
+  // The flange's x is the base's y, and the tool is 0.1 m long.
+  CHECK((r.move(1).target.pose.position - Vector3(0.5, 0.35, 1.3)).norm() < rounding);
+  CHECK((r.move(2).target.pose.position - Vector3(0.3, 0.4, 2.1)).norm() < rounding);
+  CHECK(program(lines).problem().find("'get_actual_tcp_pose()'") != std::string::npos);
+  CHECK(program("movel(get_forward_kin([0,0,0,0,0,0], tcp=p[0,0,1,0,0,0]))\n", on_robot)
+            .problem()
+            .find("the forward kinematics of another tool") != std::string::npos);
+}
+
 TEST_CASE("urscript: functions, their variables and loops run as on the controller") {
   const std::string functions = "def go" + go + "def twice(x):\n  local n = x\n  m = n + n\n  n = m\n  return n\nend\n";
   const Reading r = run(
@@ -185,10 +231,11 @@ TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
   const Reading beside = run(threads);
   CHECK(beside.problem().find("may be written by the thread step, which runs beside") != std::string::npos);
   CHECK(first_axes(run(threads, given({{"count", "9"}}))) == std::vector<double>{0.5, 1});
-  const Reading moving =
-      run("def main():\n  thread wave():\n    movej([3,0,0,0,0,0])\n  end\n  h = run wave()\n  run wave()\n"
-          "  movej([1,0,0,0,0,0])\nend\n");
-  CHECK(skips(moving, "thread wave: runs beside the program, and is left out", true));
+  for (const char* handle : {"", "h = "})
+    CHECK(skips(run(fmt::format("def main():\n  thread wave():\n    movej([3,0,0,0,0,0])\n  end\n  {}run wave()\n"
+                                "  movej([1,0,0,0,0,0])\nend\n",
+                                handle)),
+                "thread wave: runs beside the program, and is left out", true));
   ImportOptions alone;
   alone.routine = "wave";
   CHECK(
