@@ -833,15 +833,11 @@ Value Interpreter::mixed(const Expression& expression) {
     take(e.items[1]);
   };
   take(expression);
-  struct Part {
-    Value value;
-    bool truth;  // TRUE, FALSE or one of them
-  };
   int compared_at = comparisons;  // precedence of comparisons
   // Returns the value of operands first .. last; std::nullopt: an operator does not accept the kinds of its operands.
-  const std::function<std::optional<Part>(std::size_t, std::size_t)> read =
-      [&](std::size_t first, std::size_t last) -> std::optional<Part> {
-    if (first == last) return Part{operands[first], operands[first].kind == Value::Kind::truth};
+  const std::function<std::optional<Value>(std::size_t, std::size_t)> read =
+      [&](std::size_t first, std::size_t last) -> std::optional<Value> {
+    if (first == last) return operands[first];
     const auto level = [&](std::size_t k) {
       const int usual = precedence_of(operators[k]->text);
       return usual == comparisons ? compared_at : usual;
@@ -852,25 +848,21 @@ Value Interpreter::mixed(const Expression& expression) {
     const auto a = read(first, split), b = read(split + 1, last);
     if (!a || !b) return {};
     const std::string& op = operators[split]->text;
-    const bool bits = op.starts_with("b_"), compares = precedence_of(op) == comparisons;
-    const auto fits = [&](const Part& part) {
-      return part.truth ? !bits : part.value.kind == Value::Kind::unknown || (bits && part.value.is_number());
-    };
-    if ((!compares || a->truth || b->truth) && !(fits(*a) && fits(*b))) return {};
-    Part made{applied(op, a->value, b->value, operators[split]->place), !bits};
-    if (a->value.known() && b->value.known() && !made.value.known()) return {};
-    return made;
+    const Value::Kind kind = op.starts_with("b_") ? Value::Kind::number : Value::Kind::truth;
+    const auto fits = [&](const Value& side) { return side.kind == Value::Kind::unknown || side.kind == kind; };
+    if (precedence_of(op) != comparisons && !(fits(*a) && fits(*b))) return {};
+    Value made = applied(op, *a, *b, operators[split]->place);
+    return a->known() && b->known() && !made.known() ? std::nullopt : std::optional(std::move(made));
   };
-  const std::optional<Part> usual = read(0, operators.size());
+  const std::optional<Value> usual = read(0, operators.size());
   compared_at = 0;
-  const std::optional<Part> manual = read(0, operators.size());
-  if (!usual || !manual) return usual ? usual->value : manual ? manual->value : Value{};
-  if (!usual->value.known() || usual->value == manual->value) return usual->value;
-  if (!manual->value.known()) return manual->value;
-  return unknown_value(
-      "", fmt::format("is {} with comparisons after AND, EXOR and OR (KRL's priorities), and {} with "
-                      "comparisons first; parentheses in a copy of the program decide",
-                      manual->value.number != 0 ? "TRUE" : "FALSE", usual->value.number != 0 ? "TRUE" : "FALSE"));
+  const std::optional<Value> manual = read(0, operators.size());
+  if (!usual || !manual) return usual.value_or(manual.value_or(Value{}));
+  if (!usual->known() || *usual == *manual) return *usual;
+  if (!manual->known()) return *manual;
+  return unknown_value("", fmt::format("is {} with comparisons after AND, EXOR and OR (KRL's priorities), and {} with "
+                                       "comparisons first; parentheses in a copy of the program decide",
+                                       manual->number != 0 ? "TRUE" : "FALSE", usual->number != 0 ? "TRUE" : "FALSE"));
 }
 
 Value Interpreter::binary(const Expression& expression) {
