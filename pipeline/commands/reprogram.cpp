@@ -151,7 +151,9 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
     text +=
         fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}\n", times_as_long(tried, before),
                     tried.seconds - before.seconds, spans_words(tried.way), tried.way.what, remarks(tried, &before));
-    if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
+    if (!tried.file.empty())
+      text += fmt::format("  {:>24}patch: {}, {}\n", "", tried.file.string(),
+                          tried.patch.substr(0, tried.patch.find('\n')));  // for patch -p1 in FOLDER
   }
   text +=
       "  life: of the wires, in hours of motion. The first way is the best by limits, lives in repeats, and modes that are not validated.\n";

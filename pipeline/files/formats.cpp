@@ -613,7 +613,7 @@ Format make_ways_format() {
     {"/way/what",      text, "way",     "1", always, "\"axis 6 +360 deg\""},
     {"/way/lines",     text, "way",     "1", always, "the lines that it changes, one below the other: side_panel.mod:54; empty: all"},
     {"/way/motion",    text, "way",     "1", always, "YAML: the motion of the patched program"},
-    {"/way/patch",     text, "way",     "1", always, "unified diff of the program's files, with names below its folder"},
+    {"/way/patch",     text, "way",     "1", always, "a line with a folder, then the unified diff of the files below it"},
     {"/refusal/words", text, "refusal", "1", always, "why a way cannot be written in the program's language, one for each such way"},
   });
   return format;

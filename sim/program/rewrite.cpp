@@ -25,53 +25,42 @@ class Lines {
     for (std::size_t begin = 0; begin < bytes.size();) {
       const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
       std::string line = bytes.substr(begin, end - begin);
-      const bool has_return = !line.empty() && line.back() == '\r';
+      const bool has_return = line.ends_with('\r');
       if (has_return) line.pop_back();
-      lines_.push_back({{std::move(line)}, false, has_return ? "\r" : ""});
-      original_.push_back(lines_.back().now[0]);
+      lines_.push_back({line, {line}, has_return ? "\r" : ""});
       ends_with_newline_ = end < bytes.size();
       begin = end + 1;
     }
   }
 
   int count() const { return static_cast<int>(lines_.size()); }
-  const std::string& at(int line) const { return original_.at(static_cast<std::size_t>(line) - 1); }
+  const std::string& at(int line) const { return line_at(line).before; }
   /// Returns the changed line, without the lines added before and after it.
-  std::string& now(int line) {
-    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
-    l.changed = true;
-    return l.now.at(l.own);
-  }
+  std::string& now(int line) { return line_at(line).now.at(line_at(line).own); }
   /// Returns the line as it is now, with the lines added before and after it.
-  const std::vector<std::string>& written(int line) const { return lines_.at(static_cast<std::size_t>(line) - 1).now; }
+  const std::vector<std::string>& written(int line) const { return line_at(line).now; }
   void before(int line, std::string text) {
-    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
-    l.now.insert(l.now.begin() + static_cast<long>(l.own), std::move(text));
-    ++l.own;
-    l.changed = true;
+    Line& l = line_at(line);
+    l.now.insert(l.now.begin() + static_cast<long>(l.own++), std::move(text));
   }
-  void behind(int line, std::string text) {
-    Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
-    l.now.push_back(std::move(text));
-    l.changed = true;
+  void behind(int line, std::string text) { line_at(line).now.push_back(std::move(text)); }
+  /// Puts a byte order mark before the first line.
+  void mark(const std::string& bytes) {
+    if (lines_.empty()) return;
+    lines_[0].before.insert(0, bytes), lines_[0].now[0].insert(0, bytes);
   }
 
   /// Renumbers a listing's statements in lines first .. end - 1 after lines were added.
   void renumber(int first, int end) {
     int next = 0;
-    for (int line = first; line < end; ++line) {
-      Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
-      for (std::string& text : l.now) {
+    for (int line = first; line < end; ++line)
+      for (std::string& text : line_at(line).now) {
         const std::size_t colon = text.find(':');
         if (colon == std::string::npos || colon == 0 || text.find_first_not_of(" 0123456789") != colon ||
             text.find_first_of("0123456789") > colon)
           continue;
-        const std::string number = fmt::format("{:>{}}", ++next, colon);
-        if (text.compare(0, colon, number) == 0) continue;
-        text.replace(0, colon, number);
-        l.changed = true;
+        text.replace(0, colon, fmt::format("{:>{}}", ++next, colon));
       }
-    }
   }
 
   /// Returns the numbers that the lines have in the changed file.
@@ -87,11 +76,9 @@ class Lines {
 
   std::string text() const {
     std::string made;
-    for (std::size_t i = 0; i < lines_.size(); ++i)
-      for (std::size_t k = 0; k < lines_[i].now.size(); ++k) {
-        const bool last = i + 1 == lines_.size() && k + 1 == lines_[i].now.size();
-        made += lines_[i].now[k] + lines_[i].end + (last && !ends_with_newline_ ? "" : "\n");
-      }
+    for (const Line& line : lines_)
+      for (const std::string& now : line.now) made += now + line.end + "\n";
+    if (!ends_with_newline_) made.pop_back();
     return made;
   }
 
@@ -101,28 +88,22 @@ class Lines {
     std::string made = fmt::format("--- a/{0}\n+++ b/{0}\n", file_);
     std::size_t added = 0;  // number of lines added by the earlier hunks
     for (std::size_t i = 0; i < lines_.size();) {
-      if (!lines_[i].changed) {
+      if (!lines_[i].changed()) {
         ++i;
         continue;
       }
       const std::size_t begin = i - std::min(i, around);
       std::size_t end = i, quiet = 0;
-      for (; end < lines_.size() && quiet < 2 * around; ++end) quiet = lines_[end].changed ? 0 : quiet + 1;
+      for (; end < lines_.size() && quiet < 2 * around; ++end) quiet = lines_[end].changed() ? 0 : quiet + 1;
       end -= quiet - std::min(quiet, around);
       std::string body;
       std::size_t now = 0;
       for (std::size_t k = begin; k < end; ++k) {
         const Line& line = lines_[k];
-        if (!line.changed) {
-          body += row(' ', original_[k] + line.end, k + 1 == lines_.size());
-          ++now;
-          continue;
-        }
-        const bool kept = line.now[line.own] == original_[k];
-        if (!kept) body += row('-', original_[k] + line.end, k + 1 == lines_.size());
+        const bool kept = line.now[line.own] == line.before, last = k + 1 == lines_.size();
+        if (!kept) body += row('-', line.before + line.end, last);
         for (std::size_t n = 0; n < line.now.size(); ++n)
-          body += row(kept && n == line.own ? ' ' : '+', line.now[n] + line.end,
-                      k + 1 == lines_.size() && n + 1 == line.now.size());
+          body += row(kept && n == line.own ? ' ' : '+', line.now[n] + line.end, last && n + 1 == line.now.size());
         now += line.now.size();
       }
       made += fmt::format("@@ -{},{} +{},{} @@\n", begin + 1, end - begin, begin + 1 + added, now) + body;
@@ -134,18 +115,20 @@ class Lines {
 
  private:
   struct Line {
+    std::string before;
     std::vector<std::string> now;
-    bool changed;
     const char* end;      // "\\r" or nothing: before the newline
     std::size_t own = 0;  // index of the line itself among them
+    bool changed() const { return now.size() > 1 || now[0] != before; }
   };
+  Line& line_at(int line) { return lines_.at(static_cast<std::size_t>(line) - 1); }
+  const Line& line_at(int line) const { return lines_.at(static_cast<std::size_t>(line) - 1); }
   std::string row(char mark, const std::string& line, bool last) const {
     return mark + line + "\n" + (last && !ends_with_newline_ ? "\\ No newline at end of file\n" : "");
   }
 
   std::string file_;
   std::vector<Line> lines_;
-  std::vector<std::string> original_;
   bool ends_with_newline_ = true;
 };
 
@@ -589,11 +572,12 @@ void change_script(Writer& w, const LineChange& change) {
 
 Rewritten rewritten(Language language, const std::string& file, const std::string& bytes, const Program& program,
                     const std::vector<LineChange>& changes, const std::string& shown) {
-  if (decoded_text(bytes) != bytes)
-    throw pipeline::InputError({file}, "is not plain UTF-8 (another encoding, a byte order mark, or no line feeds)",
-                               "save it as UTF-8 without a byte order mark first");
-  Lines lines(shown, bytes);
-  const SourceFile source(file, bytes);
+  const std::string text = decoded_text(bytes), mark(bytes.starts_with(utf8_mark) ? utf8_mark : "");
+  if (mark + text != bytes)
+    throw pipeline::InputError({file}, "is not plain UTF-8 (another encoding, or no line feeds)",
+                               "save it as UTF-8 first");
+  Lines lines(shown, text);
+  const SourceFile source(file, text);
   Problems problems;
   const TokenRules rules = language == Language::krl        ? TokenRules{';', "$#", true, true}
                            : language == Language::urscript ? TokenRules{'#', "$", true, true}
@@ -624,6 +608,7 @@ Rewritten rewritten(Language language, const std::string& file, const std::strin
     }
   }
   if (language == Language::fanuc) lines.renumber(1, positions_begin(lines));
+  lines.mark(mark);
   return {lines.text(), lines.patch(), lines.numbers()};
 }
 

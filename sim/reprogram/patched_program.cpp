@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "pipeline/base/limits.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/text.h"
 #include "pipeline/settings/document.h"
@@ -15,6 +16,8 @@
 
 namespace dresslife::sim {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Rounding of numbers that are written with six decimals of a millimetre or a degree [m, rad], and with Fanuc's three [rad].
 constexpr double written = 1e-8, written_by_fanuc = 1e-5;
@@ -113,7 +116,7 @@ namespace {
 /// alone means a line of any file: the answer then gets a name for each of the program's files.
 std::vector<std::string> names_in(const std::map<std::string, std::vector<int>>& numbers,
                                   const std::set<std::string>& files, const std::string& name) {
-  const auto short_name = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+  const auto short_name = [](const std::string& file) { return fs::path(file).filename().string(); };
   const auto moved = [&](const std::string& file, int line) {
     const auto changed = numbers.find(file);
     const bool known = changed != numbers.end() && line >= 1 && line <= static_cast<int>(changed->second.size());
@@ -148,26 +151,29 @@ pipeline::Motion at_changed_lines(pipeline::Motion motion, const ReadProgram& re
   return motion;
 }
 
+/// Returns the nearest folder that contains the program and all these files. patch and git apply refuse names that begin with `..`.
+fs::path folder_of(const fs::path& program, const std::set<std::string>& files) {
+  const bool is_folder = pipeline::kind_of(program) == pipeline::FileKind::folder;
+  fs::path folder = fs::weakly_canonical(program);
+  if (!is_folder) folder = folder.parent_path();
+  for (const std::string& file : files)
+    while (*fs::weakly_canonical(file).lexically_relative(folder).begin() == "..") folder = folder.parent_path();
+  return folder;
+}
+
 }  // namespace
 
 PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const ProgramWay& way) {
-  namespace fs = std::filesystem;
   std::set<std::string> files;
   for (const LineChange& change : way.changes) files.insert(change.where.file);
   std::map<std::string, std::string> instead;
   std::map<std::string, std::vector<int>> numbers;
   PatchedProgram made;
-  const bool is_folder = pipeline::kind_of(job.motion.program) == pipeline::FileKind::folder;
-  const fs::path folder = is_folder ? job.motion.program : job.motion.program.parent_path();
+  const fs::path folder = folder_of(job.motion.program, files);
+  made.patch = fmt::format("for patch -p1 in {}\n", pipeline::shown(fs::proximate(folder).string()));
   for (const std::string& file : files) {
-    const fs::path below = fs::proximate(file, folder.empty() ? "." : folder);
-    if (below.begin() != below.end() && *below.begin() == "..")
-      throw pipeline::InputError({file},
-                                 "cannot be changed by itself: it is outside of the program's folder, where the "
-                                 "patch is applied",
-                                 "name a folder that contains it as motion.program, or change it by hand");
     const Rewritten changed = rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
-                                        below.empty() ? file : below.generic_string());
+                                        fs::weakly_canonical(file).lexically_relative(folder).generic_string());
     instead[file] = changed.text;
     numbers[file] = changed.numbers;
     made.patch += changed.patch;

@@ -10,7 +10,7 @@ namespace dresslife::sim {
 
 struct PatchedProgram {
   pipeline::Motion motion;  ///< motion of the patched program, read back
-  std::string patch;        ///< unified diff of all its files, with names relative to the program's folder
+  std::string patch;        ///< a line with the folder in which it applies, then the unified diff of all files
 };
 
 /// Patches a program. Errors: InputError when a line cannot be written, or when the program that is read back differs from the

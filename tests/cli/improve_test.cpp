@@ -391,6 +391,7 @@ strain: {cable_elements_per_segment: 1, surface_fibres: 0}
   REQUIRE(fs::exists(patch));
   CHECK(content(patch).find("\n--- a/short.mod\n+++ b/short.mod\n@@ ") != std::string::npos);
   // The patch fits the program, and the result is a program again.
+  CHECK(ways.out.find("patch: runs/job_reprogram/as_it_is_01.patch, for patch -p1 in .\n") != std::string::npos);
   REQUIRE(run_shell(scratch, "patch -s -o changed.mod short.mod runs/job_reprogram/as_it_is_01.patch").status == 0);
   const Outcome read = run(scratch, "dresslife-import", "changed.mod -o changed.yaml");
   INFO(read.out << read.err);

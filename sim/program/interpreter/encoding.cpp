@@ -81,7 +81,7 @@ bool every_other_byte_is_zero(const std::string& bytes, std::size_t first) {
 }  // namespace
 
 std::string decoded_text(std::string bytes) {
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  if (bytes.starts_with(utf8_mark)) bytes.erase(0, utf8_mark.size());
   if (bytes.starts_with("\xFF\xFE")) return from_utf16(bytes, 2, false);
   if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes, 2, true);
   if (every_other_byte_is_zero(bytes, 1)) return from_utf16(bytes, 0, false);

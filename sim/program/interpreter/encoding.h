@@ -4,8 +4,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace dresslife::sim {
+
+inline constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";  ///< byte order mark of UTF-8
 
 /// Returns the text in UTF-8 without a byte order mark. Half a surrogate pair becomes U+FFFD.
 std::string decoded_text(std::string bytes);

@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "sim/program/interpreter/encoding.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
@@ -52,12 +53,12 @@ struct Changed {
 /// Changes the line of instruction `move` and reads the result.
 Changed changed(Language language, const std::string& name, const std::string& text, std::size_t move,
                 LineChange change, const ImportOptions& options = {}) {
-  Changed c{Reader{language, options}({{name, text}}), {}, {}};
+  Changed c{Reader{language, options}({{name, decoded_text(text)}}), {}, {}};
   REQUIRE(c.before.problem() == "no such problem");
   change.where = c.before.move(move).where;
   change.reason = "spares the cable";
   c.written = rewritten(language, name, text, c.before.program, {change}, name);
-  c.after = Reader{language, options}({{name, c.written.text}});
+  c.after = Reader{language, options}({{name, decoded_text(c.written.text)}});
   INFO(c.written.patch);
   REQUIRE(c.after.problem() == "no such problem");
   CHECK(c.written.patch.starts_with("--- a/" + name + "\n+++ b/" + name + "\n@@ -"));
@@ -126,11 +127,17 @@ TEST_CASE("rewrite: RAPID, each change read back, all else stays byte by byte") 
   CHECK(by.after.move(2).target.pose.position == by.before.move(1).target.pose.position);
 }
 
-TEST_CASE("rewrite: each line keeps its line end") {
+TEST_CASE("rewrite: each line keeps its line end, and the file its byte order mark") {
   std::string mixed = rapid;
   mixed.insert(mixed.find("\n    MoveJ p10"), "\r");
   const Changed slow = changed(Language::rapid, "m.mod", mixed, 1, {.speed = 0.7});
   CHECK(std::ranges::count(slow.written.text, '\r') == 1);
+  const std::string mark = "\xEF\xBB\xBF";
+  const Changed marked = changed(Language::rapid, "m.mod", mark + mixed, 1, {.speed = 0.7});
+  CHECK(marked.written.text == mark + slow.written.text);
+  const std::string script = mark + "movej([0,0,0,0,0,1], v=0.5)\n";
+  CHECK(changed(Language::urscript, "m.script", script, 0, {.speed = 0.5}).written.text ==
+        mark + "movej([0,0,0,0,0,1], v=0.25)  # spares the cable\n");
 }
 
 TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
@@ -207,8 +214,8 @@ TEST_CASE("rewrite: what cannot be written is reported at its line") {
             .find("it is run with several targets") != std::string::npos);
   CHECK(refusal(timed, 1, {.speed = 0.7}) == "");
   CHECK(pipeline::message_of([&] {
-          rewritten(Language::rapid, "m.mod", "\xEF\xBB\xBF" + timed, {}, {}, "m.mod");
-        }).find("a byte order mark") != std::string::npos);
+          rewritten(Language::rapid, "m.mod", "! gr\xFC\xDF\n" + timed, {}, {}, "m.mod");
+        }).find("another encoding") != std::string::npos);
   // A point is an additional line: it must not run without the condition or the wait before the move.
   const std::string move = "MoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10,fine,tool0;\n";
   const LineChange by_a_point{.point = {0.1, 0, 0, 0, 0, 0}};

@@ -38,7 +38,7 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
     INFO(way.what << "\n" << made.patch);
     CHECK(other_difference(read.motion, made.motion, way.changes) == "");
     CHECK(other_difference(read.motion, made.motion, {}) != "");
-    CHECK(made.patch.find("--- a/side_panel.mod\n") == 0);
+    CHECK(made.patch.find("\n--- a/side_panel.mod\n") == made.patch.find('\n'));
     for (const sim::LineChange& change : way.changes) CHECK(made.patch.find("! " + change.reason) != std::string::npos);
   }
   CHECK(kinds.contains("wrist"));
@@ -126,7 +126,8 @@ TEST_CASE("program ways: the speed of a weld or a bead belongs to the process") 
   CHECK(slowed(job) == std::set<std::string>{"bead.mod:7", "bead.mod:8", "bead.mod:10"});
 }
 
-TEST_CASE("program ways: answers stay at their lines when a way adds lines, and files outside are not changed") {
+TEST_CASE(
+    "program ways: answers stay at their lines when a way adds lines, and a patch names the folder of all its files") {
   const Scratch scratch;
   const std::string frame = "[9E9,9E9,9E9,9E9,9E9,9E9]]";
   const auto joints = [&](const char* name, const char* angles) {
@@ -150,8 +151,10 @@ TEST_CASE("program ways: answers stay at their lines when a way adds lines, and 
   job.motion.modules = {{scratch.write("lib/m.mod", text)}};
   const ReadProgram read = read_job_program(job);
   const ProgramWay slower{"slower", {}, {{.where = read.motion.steps[0].where, .speed = 0.5}}};
-  CHECK(message_of([&] { patched(job, read, slower); }).find("it is outside of the program's folder") !=
-        std::string::npos);
+  const PatchedProgram made = patched(job, read, slower);
+  CHECK(made.motion.steps[0].tool_speed == Approx(0.5 * *read.motion.steps[0].tool_speed));
+  CHECK(made.patch.starts_with("for patch -p1 in " + std::filesystem::proximate(scratch.folder()).string() + "\n"));
+  CHECK(made.patch.find("\n--- a/lib/m.mod\n+++ b/lib/m.mod\n") != std::string::npos);
 }
 
 TEST_CASE("program ways: a line that runs again and again is changed for all of its moves") {
