@@ -274,7 +274,8 @@ TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
   const Outcome check = run(scratch, "dresslife", "check job.yaml");
   CHECK(check.status == 1);
   CHECK(has(check.err, "motion is missing"));
-  scratch.write("arm.urdf", palletizer);
+  scratch.write("arm.urdf", edited(palletizer, "upper=\"6\" effort=\"0\" velocity=\"6\"",
+                                   "upper=\"6\" effort=\"0\" velocity=\"180\""));  // deg/s
   const Outcome urdf = make(scratch, "--robot arm.urdf --dresspack sensor_cable arm.yaml");
   INFO(urdf.err);
   REQUIRE(urdf.status == 0);
@@ -282,6 +283,8 @@ TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
   CHECK(has(job, "# A URDF has no accelerations. These are an ESTIMATE"));
   CHECK(has(job, "\nrobot: {urdf: arm.urdf, accelerations_deg_per_s2: ["));
   CHECK(has(urdf.out, "ESTIMATE: the accelerations of its axes"));
+  CHECK(has(urdf.out, "arm.urdf:28: warning: velocity of j4 is 180 rad/s"));
+  CHECK(has(urdf.out, "velocity=\"3.142\" if that was deg/s"));
   CHECK_FALSE(has(run(scratch, "dresslife", "check arm.yaml").err, "accelerations"));
 }
 

@@ -134,11 +134,23 @@ Node file_from(const Node& entry, const fs::path& folder) {
   return named;
 }
 
+/// Returns a robot of a URDF for a job in another folder, so that messages name lines of the URDF. A null node: other keys may have
+/// paths, too.
+Node urdf_from(Node robot, const fs::path& folder) {
+  for (Entry& key : robot.entries)
+    if (key.key == "urdf" || key.key == "package_folder")
+      key.value = file_from(key.value, folder);
+    else if (!key.value.is_scalar() && key.key != "accelerations_deg_per_s2")
+      return {};
+  return robot;
+}
+
 /// Returns an entry for a job in another folder: a file is named by its path from that folder. A null node: no reference is
 /// possible, so the entry must be written out.
 Node reference(const Node& entry, const std::optional<fs::path>& folder) {
   if (!folder) return {};
   if (counts_from(entry, *folder)) return entry;
+  if (entry.is_map() && entry.find("urdf")) return urdf_from(entry, *folder);
   if (!entry.is_scalar() || !fs::path(entry.text).has_extension()) return {};
   if (kind_of(folder_of(entry) / entry.text) != FileKind::file) return {};
   return file_from(entry, *folder);
