@@ -99,8 +99,12 @@ void describe(Fields& f, Robot& robot) {
            "Roll, pitch and yaw of the flange frame. Its z axis points away from the flange.");
   f.list("external_axes", robot.external_axes, Need::optional,
          "Drives beside the robot's own. Tracks under the robot come first, from the world upwards.");
+  f.text("links_left_out", robot.links_left_out, Need::written,
+         "The links between two tracks, whose shapes are not evaluated. dresslife writes them for a URDF.");
   f.list("joints", robot.joints, Need::required, "The axes from the base to the flange.");
   f.list("links", robot.links, Need::required, "The base link, then the link behind each joint.");
+  f.list("fixed_links", robot.fixed_links, Need::optional,
+         "The links under the tracks, which do not move, in the frame of the world: the bed of a track, a portal.");
   f.list("mounting_points", robot.mounting_points, Need::optional, "The places at which dresspacks can be clamped.");
 }
 

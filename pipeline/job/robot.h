@@ -67,6 +67,8 @@ struct Robot {
   Vector3d flange_position = Vector3d::Zero();      ///< of the flange frame in the last link [m]
   Vector3d flange_orientation = Vector3d::Zero();   ///< roll, pitch, yaw; the z axis points away from the flange [rad]
   std::vector<ExternalAxis> external_axes;          ///< axes that carry the robot, from the world on
+  std::vector<Link> fixed_links;                    ///< before the tracks, in the frame of the world
+  std::string links_left_out;                       ///< between two tracks, without their shapes: "bridge"; empty: none
   std::vector<Joint> joints;                        ///< serial, from the base
   std::vector<Link> links;                          ///< joints + 1
   std::vector<MountingPoint> mounting_points;

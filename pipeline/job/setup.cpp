@@ -17,6 +17,16 @@ std::vector<double> free_lengths(const Setup& setup) {
   return mapped(setup.dresspacks, [](const MountedDresspack& mounted) { return mounted.routing.free_length; });
 }
 
+Cell surroundings(const Setup& setup) {
+  Cell all = setup.cell;
+  for (const Link& link : setup.robot.fixed_links) {
+    all.capsules.insert(all.capsules.end(), link.capsules.begin(), link.capsules.end());
+    all.boxes.insert(all.boxes.end(), link.boxes.begin(), link.boxes.end());
+    all.meshes.insert(all.meshes.end(), link.meshes.begin(), link.meshes.end());
+  }
+  return all;
+}
+
 double clamped_length(const Setup& setup) {
   return setup.motion.rig ? clamped_length(*setup.motion.rig, setup.dresspacks.front().dresspack.diameter) : 0;
 }

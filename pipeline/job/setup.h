@@ -35,6 +35,8 @@ struct Setup {
 
 /// Returns the unstretched length between the end clamps of each dresspack [m], (dresspack).
 std::vector<double> free_lengths(const Setup& setup);
+/// Returns the cell with the links of the robot that do not move.
+Cell surroundings(const Setup& setup);
 /// Returns the length of a rig's cable from clamp to clamp (rig.h) [m]; 0 without a rig.
 double clamped_length(const Setup& setup);
 

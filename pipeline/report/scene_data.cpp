@@ -43,7 +43,7 @@ class Scene {
  public:
   Scene(const Setup& setup, std::vector<std::string>& notes) : setup_(setup), notes_(notes) {
     for (const Link& link : setup.robot.links) meshes_ += link.meshes.size();
-    meshes_ += setup.cell.meshes.size();
+    meshes_ += surroundings(setup).meshes.size();
   }
 
   Json json() {
@@ -56,7 +56,7 @@ class Scene {
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
       points.push_back(Json{{"name", point.name}}.add(place(point.link, point.position, point.direction)));
-    return {{"joints", setup_.robot.axis_names()}, {"links", links},   {"cell", shapes(setup_.cell)},
+    return {{"joints", setup_.robot.axis_names()}, {"links", links},   {"cell", shapes(surroundings(setup_))},
             {"floor", setup_.simulation.floor},    {"clamps", clamps}, {"rings", rings},
             {"mounting_points", points},           {"hoses", hoses}};
   }

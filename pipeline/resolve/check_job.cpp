@@ -237,7 +237,7 @@ void check_job(const Job& job, const Node& document, Problems& problems) {
   judge({"robot"}, [&] {
     for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"), longest_on_link);
   });
-  judge({"cell"}, [&] { check_boxes(job.cell.boxes, where("cell"), INFINITY); });  // plausible_job.cpp warns
+  judge({"cell"}, [&] { check_boxes(surroundings(job).boxes, where("cell"), INFINITY); });  // plausible_job.cpp warns
   judge({"motion", "robot"}, [&] { check_motion(job.motion, job.robot); });
   if (!job.dresspacks.empty()) check_dresspacks(job, where("strain"), problems);
   judge({"simulation"}, [&] { check_simulation(job.simulation, where("simulation")); });

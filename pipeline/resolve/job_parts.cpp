@@ -287,7 +287,7 @@ std::vector<std::filesystem::path> files_beside(const Job& job) {
   for (const auto& file : related_files(programs, std::move(beside), job.motion.routine)) files.push_back(file);
   for (const Link& link : job.robot.links)
     for (const MeshFile& mesh : link.meshes) files.push_back(mesh.file);
-  for (const MeshFile& mesh : job.cell.meshes) files.push_back(mesh.file);
+  for (const MeshFile& mesh : surroundings(job).meshes) files.push_back(mesh.file);
   return files;
 }
 

@@ -986,6 +986,12 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   const WarningsOfKind doubt(warnings, WarningKind::motion), periodic(warnings, WarningKind::periodic);
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
+  if (const Robot& robot = job.robot; !robot.links_left_out.empty() && !robot.external_axes.empty())
+    WarningsOfKind(warnings, WarningKind::material)(
+        robot.external_axes.back().where,
+        fmt::format("contact with {} is not evaluated (limit: links before the first track or after the last one)",
+                    robot.links_left_out),
+        "a robot on several tracks", "no change if the dresspack cannot touch them; else boxes where they are in cell");
   doubt_order_of_quaternions(job.motion, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
   doubt_boxes(job.cell, job.robot, doubt);

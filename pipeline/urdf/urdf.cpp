@@ -273,11 +273,15 @@ class Chain {
     robot.text("source", "URDF " + request_.urdf.filename().string());
     add_base(robot);
     if (!external_.empty()) robot.put("external_axes", list_of(std::move(external_)));
+    if (!fixed_.empty()) robot.put("fixed_links", list_of(std::move(fixed_)));
+    if (!left_out_.empty()) robot.text("links_left_out", joined(left_out_, ", "));
     robot.pose(carried_, "flange_position_m", "flange_rpy_deg");
     std::vector<Node> joints;
     for (std::size_t k = 0; k < moved_.size(); ++k) joints.push_back(joint_node(k));
     robot.put("joints", list_of(std::move(joints)));
-    robot.put("links", list_of(mapped(carriers_, [&](const Carrier& carrier) { return link_node(carrier); })));
+    robot.put("links", list_of(mapped(carriers_, [&](const Carrier& carrier) {
+                return link_node(*carrier.link, &carrier != &carriers_.front());
+              })));
     return robot.done();
   }
 
@@ -340,7 +344,7 @@ class Chain {
     }
   }
 
-  /// Adds a track: it carries the base; links before it belong to the world.
+  /// Adds a track: it carries the base. The links before the first track do not move.
   void add_slide(const urdf::Joint& joint, const Isometry3d& origin) {
     if (joint.mimic)
       fail(at(joint),
@@ -356,6 +360,11 @@ class Chain {
                             .number("upper_mm", 1e3 * (joint.limits ? joint.limits->upper : 0))
                             .number("speed_mm_per_s", 1e3 * (joint.limits ? joint.limits->velocity : 0))
                             .done());
+    const Node below = link_node(*carriers_[0].link, false);
+    if (const bool has_shapes = below.entries.size() > 1; has_shapes && external_.size() == 1)
+      fixed_.push_back(below);
+    else if (has_shapes)
+      left_out_.push_back(carriers_[0].link->name);
     carriers_[0] = {model_.getLink(joint.child_link_name).get()};
     carried_ = Isometry3d::Identity();
   }
@@ -462,20 +471,19 @@ class Chain {
     std::vector<Node> capsules, boxes, meshes;
   };
 
-  Node link_node(const Carrier& carrier) const {
-    const Where where = places_.of("link", carrier.link->name);
-    Tree tree(where);
-    tree.text("name", carrier.link->name);
+  /// moves: false for a floor or a fence beside the base, which may be of any size.
+  Node link_node(const urdf::Link& link, bool moves) const {
+    Tree tree(places_.of("link", link.name));
+    tree.text("name", link.name);
     if (request_.collision == UrdfRequest::Collision::drop) return tree.done();
     Shapes shapes;
-    gather(*carrier.link, Isometry3d::Identity(), &carrier != &carriers_.front(), shapes);
+    gather(link, Isometry3d::Identity(), moves, shapes);
     if (!shapes.capsules.empty()) tree.put("capsules", list_of(std::move(shapes.capsules)));
     if (!shapes.boxes.empty()) tree.put("boxes", list_of(std::move(shapes.boxes)));
     if (!shapes.meshes.empty()) tree.put("meshes", list_of(std::move(shapes.meshes)));
     return tree.done();
   }
 
-  /// moves: false for a floor or a fence beside the base, which may be of any size.
   void gather(const urdf::Link& link, const Isometry3d& frame, bool moves, Shapes& shapes) const {
     for (const auto& collision : link.collision_array)
       if (collision && collision->geometry) {
@@ -590,7 +598,8 @@ class Chain {
   Where file_;
   std::vector<Carrier> carriers_;  // link 0 is the base
   std::vector<MovedLink> moved_;
-  std::vector<Node> external_;
+  std::vector<Node> external_, fixed_;           // tracks, and links before them
+  std::vector<std::string> left_out_;            // links between two tracks
   Isometry3d carried_ = Isometry3d::Identity();  // of the current link, in the last moving link
 };
 

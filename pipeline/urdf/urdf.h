@@ -3,9 +3,10 @@
 // the whole robot.
 //
 // The chain from the root of the links to `tip` becomes the robot: 4 to 7 rotary axes (revolute, continuous), before them only
-// sliding axes that carry the whole robot (prismatic: external axes). Links on fixed joints, and their shapes, become part of the
-// link that carries them. A joint that mimics another one follows it, and its limits are added to those of the other. Links on
-// joints that are not in the chain are left out.
+// sliding axes that carry the whole robot (prismatic: external axes). Links before the first sliding axis do not move
+// (fixed_links). The shapes of links between two sliding axes are left out, with a warning. Links on fixed joints, and their
+// shapes, become part of the link that carries them. A joint that mimics another one follows it, and its limits are added to
+// those of the other. Links on joints that are not in the chain are left out.
 //
 // Collision shapes: box and mesh are unchanged (package:// and relative names). A sphere becomes a capsule of length 0. A
 // cylinder becomes a capsule of the same length, and for its ends four boxes that cross at its axis: an octagon inside of the

@@ -70,7 +70,7 @@ Surfaces::Surfaces(const pipeline::Setup& setup) : parts_(std::make_unique<Parts
   for (const pipeline::Link& link : setup.robot.links) parts_->links.push_back(solid_of(link));
   if (!parts_->links.empty() && parts_->links.back().empty())
     parts_->links.back().capsules = {{setup.robot.flange_position, setup.robot.flange_position, 0}};
-  parts_->cell = solid_of(setup.cell);
+  parts_->cell = solid_of(surroundings(setup));
 }
 
 Surfaces::~Surfaces() = default;

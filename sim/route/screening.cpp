@@ -299,6 +299,7 @@ double Screener::Parts::depth(const pipeline::Setup& setup, const Thread& thread
     if (setup.simulation.floor) deepest = std::max(deepest, radius - points[i].z());
     if (!setup.simulation.contact) continue;
     meet(setup.cell, points[i]);
+    for (const pipeline::Link& link : setup.robot.fixed_links) meet(link, points[i]);
     for (std::size_t link = 0; link < moment.links.size(); ++link) {
       const int of = static_cast<int>(link);
       if (i < held && of == thread.nodes.front().link) continue;

@@ -641,7 +641,7 @@ Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, cons
 }
 
 std::string obstacle_words(const pipeline::Setup& setup) {
-  const pipeline::Cell& cell = setup.cell;
+  const pipeline::Cell cell = surroundings(setup);
   return cell.capsules.empty() && cell.boxes.empty() && cell.meshes.empty() ? "the robot"
                                                                             : "the robot or an obstacle of the cell";
 }

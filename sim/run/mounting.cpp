@@ -77,7 +77,7 @@ WorldSettings world_settings(const pipeline::Setup& setup) {
 
 void add_obstacles(World& world, const pipeline::Setup& setup, const RobotPath* robot) {
   if (!setup.simulation.contact) return;
-  add_shapes(world, cell_obstacle, setup.cell);
+  add_shapes(world, cell_obstacle, surroundings(setup));
   if (!robot) return;
   for (size_t link = 0; link < setup.robot.links.size(); ++link)
     add_shapes(world, static_cast<int>(link), setup.robot.links[link]);

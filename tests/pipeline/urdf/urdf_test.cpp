@@ -174,6 +174,41 @@ TEST_CASE("urdf: a base that slides is an external axis under the robot") {
   CHECK((robot.external_axes[0].origin - Vector3d(0, 0, 0.3)).norm() < rounding);
   CHECK((robot.joints[0].origin - Vector3d(0, 0, 0.5)).norm() < rounding);
   CHECK(robot.links[0].name == "base_link");
+  CHECK(robot.fixed_links.empty());  // the floor has no shape
+}
+
+TEST_CASE("urdf: shapes before a track stand still in the world, and those between two tracks are named") {
+  const std::string slide =
+      "type=\"prismatic\"><axis xyz=\"1 0 0\"/><limit lower=\"-2\" upper=\"3\" effort=\"0\" velocity=\"1\"/>";
+  const std::string shape =
+      "<collision><origin xyz=\"0 1 0\"/><geometry><box size=\"6 0.4 0.2\"/></geometry></collision>";
+  const std::string stand = "<joint name=\"stand\" type=\"fixed\">";
+  const std::string bed = "<link name=\"world\"/><link name=\"bed\">" + shape +
+                          "</link><joint name=\"feet\" type=\"fixed\"><origin xyz=\"0 0 0.7\"/><parent link=\"world\"/>"
+                          "<child link=\"bed\"/></joint>";
+  const auto on = [&](const std::string& joints) {
+    return edited(changed(stand, "<joint name=\"stand\" " + slide), "<link name=\"floor\"/>",
+                  "<link name=\"floor\"/>" + bed + joints);
+  };
+  const auto joint = [](const std::string& kind) {
+    return "<joint name=\"on\" " + kind + "<parent link=\"bed\"/><child link=\"floor\"/></joint>";
+  };
+  Node tree = robot_from_urdf(request(), on(joint("type=\"fixed\">")));
+  REQUIRE(tree.find("fixed_links"));
+  REQUIRE(tree.find("fixed_links")->items.size() == 1);
+  Link world;
+  read_fields(tree.find("fixed_links")->items[0], world);
+  CHECK(world.name == "world");
+  REQUIRE(world.boxes.size() == 1);
+  CHECK((world.boxes[0].position - Vector3d(0, 1, 0.7)).norm() < rounding);
+  CHECK(!tree.find("links_left_out"));
+  const std::string bridge =
+      edited(on(joint(slide)), "<link name=\"floor\"/>", "<link name=\"floor\">" + shape + "</link>");
+  tree = robot_from_urdf(request(), bridge);
+  CHECK(tree.find("external_axes")->items.size() == 2);
+  CHECK(tree.find("fixed_links")->items.size() == 1);
+  REQUIRE(tree.find("links_left_out"));
+  CHECK(tree.find("links_left_out")->text == "floor");
 }
 
 TEST_CASE("urdf: meshes are found beside the file and in their packages") {
