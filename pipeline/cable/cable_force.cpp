@@ -13,7 +13,7 @@
 namespace dresslife::pipeline {
 CableForce::CableForce(const Dresspack& dresspack, const Component& cable) {
   const double area = pi * cable.radius * cable.radius;
-  mass_ = mass_of_part(cable);
+  mass_ = mass_of_part(dresspack, cable);
   if (cable.plain) {
     const PlainProperties plain = properties_of(*cable.plain, cable.radius);
     bending_ = plain.bending;

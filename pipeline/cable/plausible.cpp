@@ -436,6 +436,21 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
   }
 }
 
+/// Warns of wires without a density in a part whose mass is computed.
+void doubt_densities(const Dresspack& dresspack, const Judge& judge) {
+  for (const Material& of : dresspack.materials)
+    for (const Component& part : dresspack.components) {
+      const bool counts = dresspack.mass_from_construction || lies_loose(dresspack, part);
+      if (of.density || part.laying.mass || !counts || !has_wire_of({part}, of.name)) continue;
+      judge.add(of.where,
+                fmt::format("'{}' has no density (limit: one is needed; '{}' weighs as if it were copper)", of.name,
+                            part.name),
+                "a material without this key",
+                "density_kg_per_m3: 8900 for copper, 2700 for aluminium, 7850 for steel");
+      break;
+    }
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
@@ -520,6 +535,7 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
     judge.add.number(of.where, "play_mm", fmt::format(" of '{}'", of.name), 1e3 * of.laying.play.value_or(0),
                      {0, 500 * dresspack.diameter, ": half of diameter_mm"}, {},
                      {"another unit", "no play_mm: it follows from the bore"});
+  doubt_densities(dresspack, judge);
   judge.parts(dresspack.components);
   judge.parts(dresspack.core_components);
   judge.ratings(dresspack.ratings, dresspack.name, dresspack.diameter);

@@ -21,7 +21,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double wire_density = 8900;        // [kg/m3], of copper
+constexpr double copper_density = 8900;      // [kg/m3], of a wire whose material has none; plausible.cpp warns
 constexpr double torsion_of_core = 0.8;      // ESTIMATE: that of a solid round bar
 constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by the hose's own weight; hoses of polyamide have 1e-4 and less
@@ -64,14 +64,19 @@ HoseStiffness wall_of(const Dresspack& dresspack) {
   return {EA * R * R / 2, 2 * pi * R * R * R * profile.wall * G * profile.pitch / fold.unfolded(), EA};
 }
 
+double density_of(const Dresspack& dresspack, std::string_view material, double otherwise) {
+  const Material* const of = find_material(dresspack, material);
+  return of ? of->density.value_or(otherwise) : otherwise;
+}
+
 /// Adds the mass of the wires minus that of the polymer that they displace [kg/m].
-void add_wires(const Component& part, double count, double cosines, double& mass) {
+void add_wires(const Dresspack& dresspack, const Component& part, double count, double cosines, double& mass) {
   count *= part.count;
   cosines *= std::cos(part.lay_angle);
-  for (const Component& inner : part.components) add_wires(inner, count, cosines, mass);
+  for (const Component& inner : part.components) add_wires(dresspack, inner, count, cosines, mass);
   if (!part.components.empty()) return;
   const double area = count * pi * part.radius * part.radius;
-  mass += (wire_density - polymer_density) * area / cosines;
+  mass += (density_of(dresspack, part.material, copper_density) - polymer_density) * area / cosines;
 }
 
 /// Returns the cross-section of the wall [m2].
@@ -205,20 +210,25 @@ std::string state_words(const Dresspack& dresspack) {
 
 }  // namespace
 
-double mass_of_part(const Component& part) {
+double mass_of_part(const Dresspack& dresspack, const Component& part) {
   if (part.plain) return properties_of(*part.plain, part.radius).mass;
   const double area = pi * part.radius * part.radius;
+  if (is_wire(part)) return density_of(dresspack, part.material, copper_density) * area;
   double mass = polymer_density * area;
-  for (const Component& inner : part.components) add_wires(inner, 1, 1, mass);
+  for (const Component& inner : part.components) add_wires(dresspack, inner, 1, 1, mass);
   return mass;
 }
 
 double mass_of_construction(const Dresspack& dresspack) {
-  double mass = is_hose(dresspack) ? polymer_density * section_of_wall(dresspack) : 0, parts = 0;
+  double mass = 0, parts = 0;
+  if (is_hose(dresspack))
+    mass += density_of(dresspack, dresspack.hose_material, polymer_density) * section_of_wall(dresspack);
+  if (is_hose(dresspack) && dresspack.sleeve)
+    mass += density_of(dresspack, dresspack.sleeve->material, polymer_density) * pi * dresspack.sleeve->thickness *
+            (dresspack.diameter + dresspack.sleeve->thickness);
   for (const std::vector<Component>& inside : {dresspack.components, dresspack.core_components})
     for (const Component& part : inside) {
-      const double own = is_wire(part) ? wire_density * pi * part.radius * part.radius : mass_of_part(part);
-      mass += part.count * part.laying.mass.value_or(own) / std::cos(part.lay_angle);
+      mass += part.count * part.laying.mass.value_or(mass_of_part(dresspack, part)) / std::cos(part.lay_angle);
       parts += part.count * pi * part.radius * part.radius / std::cos(part.lay_angle);
     }
   const double left = pi / 4 * dresspack.diameter * dresspack.diameter - parts;
@@ -411,8 +421,8 @@ std::string stiffness_text(const Dresspack& dresspack) {
                       stuck = stiffness_with(wires, dresspack, SlipState::stuck, curvature);
   std::string text;
   if (dresspack.mass_from_construction)
-    text += fmt::format("mass {:.4g} kg/m from construction: wires of {:.0f} kg/m3 in a polymer of {:.0f}\n",
-                        dresspack.mass_per_length, wire_density, polymer_density);
+    text += fmt::format("mass {:.4g} kg/m from construction: wires by their densities in a polymer of {:.0f} kg/m3\n",
+                        dresspack.mass_per_length, polymer_density);
   const auto line = [&](const char* name, const char* unit, double used, bool taken, double HoseStiffness::*of) {
     const std::string source = taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given";
     text += used > 0 ? fmt::format("{} {:.4g} {} {}; ", name, used, unit, source) : fmt::format("{} [{}] ", name, unit);

@@ -30,11 +30,12 @@
 
 namespace dresslife::pipeline {
 
-/// Returns the mass of one part [kg/m]: properties_of() of a part without wires (plain_part.h), otherwise that of wires of 8900
-/// kg/m3 along their lays in a polymer of 1200 kg/m3.
-double mass_of_part(const Component& part);
-/// Returns the mass of the dresspack [kg/m]: its parts (given, or by mass_of_part()) and a polymer wall, without the core and the
-/// contents of hoses. If it is no hose, a jacket fills the space between its parts.
+/// Returns the mass of one part [kg/m]: properties_of() of a part without wires (plain_part.h), otherwise that of wires with the
+/// densities of their materials along their lays in a polymer of 1200 kg/m3.
+double mass_of_part(const Dresspack& dresspack, const Component& part);
+/// Returns the mass of the dresspack [kg/m]: its parts (given, or by mass_of_part()), its wall and its sleeve, without the core and
+/// the contents of hoses. If it is no hose, a jacket fills the space between its parts. Wall and sleeve without a density have 1200
+/// kg/m3.
 double mass_of_construction(const Dresspack& dresspack);
 
 struct HoseStiffness {

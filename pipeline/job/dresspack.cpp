@@ -28,8 +28,8 @@ void describe(Fields& f, Laying& laying) {
   f.maybe_number("tool_grip_N", laying.tool_grip, above(0),
                  "The force at which the part slips in the tool clamp. Default: it never slips.");
   f.maybe_number("mass_kg_per_m", laying.mass, above(0),
-                 "The mass of a loose part or of a part without wires. Default: wires of 8900 kg/m3 in a polymer of "
-                 "1200 kg/m3.");
+                 "The mass of a loose part or of a part without wires. Default: its wires with the densities of their "
+                 "materials, in a polymer of 1200 kg/m3.");
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.number("diameter_mm", dresspack.diameter, Need::required, up_to_a_metre, "The outer diameter of the hose.");
   constexpr std::string_view from = "from_construction";
   f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need, range,
-                   "The mass of the filled hose. from_construction: the sum of its parts and its wall.");
+                   "The mass of the filled hose. from_construction: the sum of its parts, its wall and its sleeve.");
   f.number_or_word(
       "bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction, from, need, range,
       "E I of the filled hose. from_construction: it is computed from parts, wall and core in construction_state. In "

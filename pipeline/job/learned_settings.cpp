@@ -127,11 +127,11 @@ std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
   return cables;
 }
 
-/// Returns the constants of a material as "key value, key value".
+/// Returns the constants of a material as "key value, key value". No law that is learned depends on its density.
 std::string constants_of(const Material& material) {
   std::vector<std::string> words;
   for (const Entry& entry : echo_fields(material).entries)
-    if (entry.key != "name" && entry.key != "source")
+    if (entry.key != "name" && entry.key != "source" && entry.key != "density_kg_per_m3")
       words.push_back(entry.key + " " + (entry.value.is_scalar() ? entry.value.text : xxh3(to_yaml(entry.value))));
   return listed(words);
 }

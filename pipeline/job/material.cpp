@@ -27,6 +27,8 @@ void describe(Fields& f, Material& material) {
   f.number("youngs_modulus_GPa", material.youngs_modulus, Need::required, above(0), "Young's modulus E.");
   f.maybe_number("tensile_strength_MPa", material.tensile_strength, above(0),
                  "The stress at which a wire tears. Warnings compare the forces of cables with it.");
+  f.maybe_number("density_kg_per_m3", material.density, between(100, 23000),
+                 "The density. Masses that are computed from wires, the hose's wall or a sleeve need it.");
   f.number("poisson_ratio", material.poisson_ratio, Need::optional, between(0, 0.5), "Poisson's ratio nu.");
   f.list("strain_life_table", material.strain_life_table, Need::optional,
          "Measured points instead of the constants below, larger strains first. The curve between them is "

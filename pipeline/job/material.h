@@ -38,6 +38,7 @@ struct Material {
   std::string name, source;
   double youngs_modulus = 0;  ///< E [Pa]
   double poisson_ratio = 0;
+  std::optional<double> density;                    ///< [kg/m3]; absent: mass_of_part() takes that of copper
   double fatigue_strength = 0;                      ///< sigma_f' [Pa]
   double fatigue_strength_exponent = 0;             ///< b
   double fatigue_ductility = 0;                     ///< epsilon_f'

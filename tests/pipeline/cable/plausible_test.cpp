@@ -46,6 +46,17 @@ TEST_CASE("plausible: a mass between that of its wires and of its parts in a hea
   least(std::max(10 * 2700 * std::numbers::pi / 4 * 1e-6, 0.3 * mass_of_construction(dresspack)));
 }
 
+TEST_CASE("plausible: a wire without a density is named where its mass is computed") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/sensor_cable.yaml");
+  for (Material& of : dresspack.materials) of.density.reset();
+  CHECK(plausibility_warnings(dresspack).empty());  // its mass is given
+  dresspack.mass_from_construction = true;
+  const std::vector<Warning> warnings = plausibility_warnings(dresspack);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words, Catch::Contains("has no density (limit: one is needed; '") &&
+                                    Catch::Contains("density_kg_per_m3: 8900 for copper"));
+}
+
 TEST_CASE("plausible: a wire that is too thin names the slip behind it, for a part and for a data sheet") {
   const auto words = [](double radius) {
     Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/sensor_cable.yaml");

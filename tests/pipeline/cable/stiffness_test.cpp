@@ -330,8 +330,8 @@ TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and w
   const double metal = 10 * pi * 1e-8 * 8900 / std::cos(0.2),
                left = (pi * 25e-6 - 10 * pi * 1e-8 / std::cos(0.2)) * 1200;
   const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
-  CHECK(mass_of_part(cable) == Approx(metal + left).epsilon(1e-12));
   Dresspack pack = of({cable});
+  CHECK(mass_of_part(pack, cable) == Approx(metal + left).epsilon(1e-12));
   pack.diameter = 0.012;  // a jacket that fills the room outside the parts
   CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
   pack.inner_diameter = 0.011;
@@ -345,6 +345,24 @@ TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and w
         Approx(0.5 / std::cos(0.3) - 0.5).epsilon(1e-12));
   pack.components[0].laying.mass = 0.5;
   CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+}
+
+TEST_CASE("stiffness: the masses of wires, wall and sleeve follow the densities of their materials") {
+  const double metal = 10 * pi * 1e-8 / std::cos(0.2);
+  const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
+  Dresspack pack = of({cable});
+  pack.materials[0].density = 2810;
+  CHECK(mass_of_part(pack, cable) == Approx(metal * 2810 + (pi * 25e-6 - metal) * 1200).epsilon(1e-12));
+  CHECK(mass_of_part(pack, wires(1, 1e-4, 0, 0)) == Approx(pi * 1e-8 * 2810).epsilon(1e-12));
+  pack.diameter = 0.012, pack.inner_diameter = 0.011;
+  const double parts = mass_of_part(pack, cable), wall = pi / 4 * (144e-6 - 121e-6);
+  Material steel;
+  steel.name = "steel", steel.density = 7900;
+  pack.materials.push_back(steel);
+  pack.hose_material = "steel";
+  CHECK(mass_of_construction(pack) == Approx(parts + 7900 * wall).epsilon(1e-12));
+  pack.sleeve = Sleeve{1e-3, "steel", {}};
+  CHECK(mass_of_construction(pack) == Approx(parts + 7900 * (wall + pi / 4 * (196e-6 - 144e-6))).epsilon(1e-12));
 }
 
 TEST_CASE("stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
