@@ -21,23 +21,27 @@ void SegmentRows::begin(std::size_t samples) {
 }
 
 void SegmentRows::end() {
-  Block block{0, block_samples_, 0, {}};
+  constexpr std::size_t at_once = 16;  // samples per tile: a cache line of each row
+  const std::size_t rows = segments_ * rows_;
+  std::vector<float> values(block_.size());
+  for (std::size_t first = 0; first < block_samples_; first += at_once)
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t t = first; t < std::min(first + at_once, block_samples_); ++t)
+        values[row * block_samples_ + t] = block_[t * rows + row];
+  append(std::move(values), block_samples_);
+}
+
+void SegmentRows::append(std::vector<float> values, std::size_t samples) {
+  Block block{0, samples, 0, std::move(values)};
   if (!blocks_.empty()) {
     const Block& before = blocks_.back();
     block.first = before.first + before.samples;
     block.offset = before.offset + before.samples * segments_ * rows_;
   }
-  constexpr std::size_t at_once = 16;  // samples per tile: a cache line of each row
-  const std::size_t rows = segments_ * rows_;
-  block.values.resize(block_.size());
-  for (std::size_t first = 0; first < block_samples_; first += at_once)
-    for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t t = first; t < std::min(first + at_once, block_samples_); ++t)
-        block.values[row * block_samples_ + t] = block_[t * rows + row];
   if (file_) {
     file_->write_at(block.values.data(), block.values.size() * sizeof(float), block.offset * sizeof(float));
     file_->check();
-    block.values = {};
+    block.values = std::vector<float>();  // `= {}` would keep the memory
   }
   blocks_.push_back(std::move(block));
 }

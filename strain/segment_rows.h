@@ -29,6 +29,8 @@ class SegmentRows {
     return block_[(sample_of_block * segments_ + segment) * rows_ + row];
   }
   void end();  ///< ends the block. Errors: InputError when the disk is full.
+  /// Adds a whole block. values: (segment, row, sample). Errors: InputError when the disk is full.
+  void append(std::vector<float> values, std::size_t samples);
 
   /// Copies samples [first, first + count) of a row to `to`. Precondition: end() was called for their blocks. Errors:
   /// MachineFault (an InputError) when the temporary file cannot be read.
