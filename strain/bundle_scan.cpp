@@ -164,6 +164,25 @@ void BundleScan::scan_mixed_groups(std::span<Group> here, const float* waves, st
     for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
 }
 
+/// Adds the strain of wires that slide as lines to the waves of the mean strain.
+void BundleScan::add_lines(bool mixed, std::size_t first, std::size_t count) {
+  const int fibres = settings_.fibre_count, kinds = mixed ? ingredients(fibres) : fibres;
+  for (std::size_t layer = 0; layer < lines_->size(); ++layer) {
+    const LineWave& line = (*lines_)[layer];
+    if (line.cos_row.empty()) continue;
+    const auto c = static_cast<float>(std::cos(line.phase)), s = static_cast<float>(std::sin(line.phase));
+    for (int kind = 0; kind < (mixed ? 1 : fibres); ++kind) {
+      float* const sines = waves_.data() + ((layer * kinds + kind) * waves_per_layer + 1) * block_samples;
+      float* const cosines = sines + block_samples;
+      for (std::size_t t = 0; t < count; ++t) {
+        const float one = line.cos_row[first + t], other = line.sin_row[first + t];
+        sines[t] += c * other - s * one;
+        cosines[t] += c * one + s * other;
+      }
+    }
+  }
+}
+
 void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                             std::size_t samples) {
   const std::size_t layers = nesting.node_count / waves_per_layer;
@@ -175,6 +194,7 @@ void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wa
     const std::size_t count = std::min(block_samples, samples - first);
     const auto fill = mixed ? kernels().ingredient_waves : kernels().layer_waves;
     fill(of, columns, first, count, waves_.data(), block_samples);
+    add_lines(mixed, first, count);
     if (mixed)
       scan_mixed(count, wanted);
     else
@@ -213,14 +233,18 @@ void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& pla
 }
 
 void BundleScan::run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-                     bool mixed, const DeformationColumns& columns, std::size_t samples) {
+                     bool mixed, const DeformationColumns& columns, std::size_t samples,
+                     const std::vector<LineWave>& lines) {
+  lines_ = &lines;
   run_all(bundle, plan, nesting, mixed, columns, samples, Wanted::turns);
   for (Group& group : groups_)
     for (int f = 0; f < settings_.fibre_count; ++f) group.scans[f].finish(lists_of(group, f));
 }
 
 void BundleScan::rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-                      bool mixed, const DeformationColumns& columns, std::size_t samples) {
+                      bool mixed, const DeformationColumns& columns, std::size_t samples,
+                      const std::vector<LineWave>& lines) {
+  lines_ = &lines;
   run_all(bundle, plan, nesting, mixed, columns, samples, Wanted::ranks);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strain/clamp_means.h"
+#include "strain/long_waves.h"
 #include "strain/reversals.h"
 
 namespace dresslife::strain {
@@ -31,13 +32,13 @@ class BundleScan {
 
   /// Scans a bundle. nesting: contains the nodes of the bundle's layers. mixed: strains are composed wire by wire.
   void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed,
-           const DeformationColumns& columns, std::size_t samples);
+           const DeformationColumns& columns, std::size_t samples, const std::vector<LineWave>& lines);
   /// Calls found(wire, fibre, points) for every site, wire by wire. Wires are numbered through the bundle. Precondition: run().
   void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
 
   /// Scans a bundle for its strain measures without listing turning points.
   void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed,
-            const DeformationColumns& columns, std::size_t samples);
+            const DeformationColumns& columns, std::size_t samples, const std::vector<LineWave>& lines);
   /// Calls found(wire, fibre, measures) for every site. Precondition: rank().
   void for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const;
 
@@ -69,6 +70,7 @@ class BundleScan {
   /// Puts the sliders into the state in which one repeat of the motion leaves them.
   void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting, const DeformationColumns& columns,
               std::size_t samples);
+  void add_lines(bool mixed, std::size_t first, std::size_t count);
   /// Scans the next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);
@@ -84,6 +86,7 @@ class BundleScan {
   std::vector<TurningList> lists_;
   std::vector<float> waves_, strains_;
   std::vector<LaneRun> runs_;
+  const std::vector<LineWave>* lines_ = nullptr;  ///< (layer) of the present bundle; empty: none
 };
 
 }  // namespace dresslife::strain

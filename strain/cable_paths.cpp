@@ -538,6 +538,25 @@ void CablePaths::find_bent() {
     }
 }
 
+bool CablePaths::read_curvature(int part, std::size_t row, int about, std::size_t first, std::size_t count,
+                                double* to) const {
+  for (std::size_t k = 0; k < loosened_.size(); ++k) {
+    if (cables_[loosened_[k]].part != part) continue;
+    const std::size_t last = lengths_.size();
+    curvature_->read(row == 0 ? last : row > last ? last + 1 : row - 1, 2 * k + about, first, count, to);
+    return true;
+  }
+  return false;
+}
+
+void CablePaths::read_strain(int part, std::size_t segment, std::size_t first, std::size_t count, double* to) const {
+  std::fill_n(to, count, 0.0);
+  for (const Cable& cable : cables_)
+    if (cable.part == part)
+      for (std::size_t t = 0; t < count; ++t)
+        to[t] = cable.rubs ? cable.along[along_at(segment, first + t)] : cable.strain[first + t];
+}
+
 double CablePaths::largest_curvature(std::size_t cable) const {
   const auto k = static_cast<std::size_t>(std::ranges::find(loosened_, cable) - loosened_.begin());
   std::vector<double> one(next_), other(next_);

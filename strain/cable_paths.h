@@ -135,6 +135,11 @@ class CablePaths {
   }
   /// Returns the radius of the helix into which the cable can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
+  /// Reads samples of the curvature of a loose cable. part: of the cable. row: 0: base end, then the segments, then the tool end.
+  /// Returns whether the cable is loose.
+  bool read_curvature(int part, std::size_t row, int about, std::size_t first, std::size_t count, double* to) const;
+  /// Reads samples of the strain of a cable in a segment. part: of the cable; 0 if it sticks to the hose.
+  void read_strain(int part, std::size_t segment, std::size_t first, std::size_t count, double* to) const;
   /// Returns the largest curvature of the path where the wires are evaluated [1/m]; 0: it is held.
   double largest_curvature(std::size_t cable) const;
   /// Returns the least and the largest growth of the path over the motion, relative to its length as installed without slack.

@@ -118,6 +118,15 @@ ShortenedPlan ClampMeans::shorten(double bend_wave) {
   return result;
 }
 
+void ClampMeans::set_lines(const std::vector<int>& layers, std::shared_ptr<const LongWaves> lines) {
+  lines_ = std::move(lines);
+  for (const int layer : layers) {
+    plan_[layer].friction = false;
+    plan_[layer].cap = {};
+    plan_[layer].elastic = 0;
+  }
+}
+
 ClampMeans ClampMeans::rubbing(double factor) const {
   ClampMeans means = *this;
   for (LayerSlip& slip : means.plan_)

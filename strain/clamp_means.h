@@ -5,9 +5,11 @@
 
 #include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "strain/long_waves.h"
 #include "strain/path_rates.h"
 #include "strain/segment_motion.h"
 
@@ -35,6 +37,9 @@ class ClampMeans {
   /// and any finite friction with it. Precondition: all samples were added.
   static constexpr double glued = std::numeric_limits<double>::infinity();
   ClampMeans rubbing(double factor) const;
+  /// The layers slide over their pitch without friction, and have the strain of `lines` in addition (W45).
+  void set_lines(const std::vector<int>& layers, std::shared_ptr<const LongWaves> lines);
+  const std::shared_ptr<const LongWaves>& lines() const { return lines_; }  ///< null: none
   bool needed() const { return !groups_.empty(); }
 
   /// Returns the strain of a part (sample); null if it does not slide from clamp to clamp.
@@ -68,6 +73,7 @@ class ClampMeans {
   std::map<int, std::size_t> part_row_;
   std::map<std::pair<int, int>, std::size_t> layer_row_;  ///< (part, layer) -> first of waves_per_layer rows
   std::vector<std::vector<double>> strain_;
+  std::shared_ptr<const LongWaves> lines_;
 };
 
 }  // namespace dresslife::strain

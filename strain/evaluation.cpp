@@ -114,7 +114,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
                static_cast<std::size_t>(settings.cable_elements), place.known_ends, place.relief_stiffness,
                place.stiffness_factor},
-              lengths_, arcs_, samples, scratch) {
+              lengths_, arcs_, samples, scratch),
+      scratch_(scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());
   const std::string before = place_.name.empty() ? "" : place_.name + "/";
@@ -192,6 +193,7 @@ void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
   CablePaths::add(cables, block);
   for (Evaluation* const of : all) {
     of->add_bends(block.deformation);
+    of->keep_bends(block);
     if (!of->cables_.remembers()) of->add_means(block.deformation);
   }
 }
@@ -212,10 +214,94 @@ void Evaluation::repeat() {
   cables_.repeat();
   for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->repeat();
   meant_ = 0;
+  if (hose_bends_) hose_bends_->clear();
 }
 
 void Evaluation::record_net_bend() {
   net_bend_.emplace(construction_, means_.plan(), lengths_, arcs_, clamped(place_, lengths_));
+}
+
+/// Loose cables have bends of their own.
+void Evaluation::keep_bends(const SpanBlock& block) {
+  const auto& plan = means_.plan();
+  if (std::ranges::all_of(construction_.cables(),
+                          [&](int part) { return plan[construction_.parts()[part].layer].loose; }))
+    return;
+  const std::size_t rows = lengths_.size() + 2;
+  if (!hose_bends_) hose_bends_.emplace(rows, 2, samples_, scratch_);
+  hose_bends_->begin(block.deformation.samples());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t end = row == 0 ? 0 : 1, segment = std::clamp<std::size_t>(row, 1, rows - 2) - 1;
+    const DeformationColumns here = block.deformation.columns(segment);
+    const bool known = (row == 0 || row + 1 == rows) && place_.known_ends[end];
+    for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
+      const auto [k1, k2] = known ? std::pair(block.ends[2 * t + end].curvature1, block.ends[2 * t + end].curvature2)
+                                  : std::pair(here.curvature1[t], here.curvature2[t]);
+      hose_bends_->at(row, 0, t) = static_cast<float>(k1);
+      hose_bends_->at(row, 1, t) = static_cast<float>(k2);
+    }
+  }
+  hose_bends_->end();
+}
+
+BentCables Evaluation::bent_cables() const {
+  const auto part = [this](std::size_t cable) { return construction_.cables()[cable]; };
+  return {lengths_,
+          arcs_,
+          places_,
+          samples_,
+          [=, this](std::size_t cable, std::size_t row, int about, std::size_t first, std::size_t count, double* to) {
+            if (cables_.read_curvature(part(cable), row, about, first, count, to)) return;
+            hose_bends_->read(row, about, first, count, to);
+          },
+          [=, this](std::size_t cable, std::size_t segment, std::size_t first, std::size_t count, double* to) {
+            cables_.read_strain(part(cable), segment, first, count, to);
+          }};
+}
+
+std::shared_ptr<const LongWaves> Evaluation::lines_rubbing(double factor, const std::vector<LayerSlip>& plan,
+                                                           const std::vector<int>& layers) const {
+  Scratch scratch = scratch_;
+  scratch.room = static_cast<std::size_t>(share_of_lines * static_cast<double>(scratch.room));
+  return std::make_shared<const LongWaves>(construction_, plan, layers, bent_cables(), factor, scratch);
+}
+
+/// A rig that evaluates a part of its cable does not have the bends of the others.
+void Evaluation::find_lines() {
+  if (samples_ == 0) return;
+  std::vector<double> limits;
+  for (std::size_t cable = 0; cable < construction_.cables().size(); ++cable) {
+    const double wave = bend_wave(bent_cables(), cable);
+    limits.push_back(believable_evening * wave);
+    evening_.bend_wave = std::min(evening_.bend_wave, wave);
+  }
+  if (place_.clamped_length > total(lengths_) || is_thesis(construction_.kinematics())) return;
+  plan_of_lines_ = means_.plan();
+  line_layers_ = LongWaves::layers_of(construction_, plan_of_lines_, limits);
+  const std::vector<LayerSlip> free = free_.means.plan();
+  const std::vector<int> free_layers = LongWaves::layers_of(construction_, free, limits);
+  if (!free_layers.empty()) free_.means.set_lines(free_layers, lines_rubbing(1, free, free_layers));
+  if (line_layers_.empty()) return;
+  const bool same = free == plan_of_lines_;
+  means_.set_lines(line_layers_, same ? free_.means.lines() : lines_rubbing(1, plan_of_lines_, line_layers_));
+}
+
+std::vector<LineWave> Evaluation::lines_of(const Bundle& bundle, std::size_t segment, const ClampMeans& means) const {
+  std::vector<LineWave> lines;
+  for (const int layer : bundle.wire_layers)
+    if (means.lines()) lines.push_back(means.lines()->of(layer, bundle.part, segment));
+  return lines;
+}
+
+LineWave Evaluation::line_of(Site site, std::size_t segment, const ClampMeans& means) const {
+  const Wire& wire = wires_[site.wire];
+  if (!means.lines()) return {};
+  return means.lines()->of(wire.layer, construction_.bundles()[wire.bundle].part, segment);
+}
+
+double Evaluation::angle_of(Site site) const {
+  const Wire& wire = wires_[site.wire];
+  return 2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count;
 }
 
 void Evaluation::add_bends(const DeformationHistory& block) {
@@ -242,6 +328,7 @@ void Evaluation::end_first_pass() {
   // Poses give curvatures with an error of up to 1e-9 1/m. A bend of 1e-6 1/m strains the jacket of a hose of 0.1 m by 5e-8.
   const bool bent = bends > 1e-12 * total(lengths_);
   if (bent && slopes > 0) evening_.bend_wave = 2 * std::numbers::pi * std::sqrt(bends / slopes);
+  find_lines();
   const ShortenedPlan of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;
@@ -284,7 +371,9 @@ bool Evaluation::mixed(const ClampMeans& means) const {
   return scan_.with_shear || std::ranges::any_of(means.plan(), &LayerSlip::friction);
 }
 
-bool Evaluation::rubs_inside() const { return std::ranges::any_of(means_.plan(), &LayerSlip::friction); }
+bool Evaluation::rubs_inside() const {
+  return std::ranges::any_of(plan_of_lines_.empty() ? means_.plan() : plan_of_lines_, &LayerSlip::friction);
+}
 
 void Evaluation::add_held(const ClampMeans& means) {
   for (Worker& worker : workers_)
@@ -370,13 +459,14 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
   out.seen.clear();
   const auto site_of = [&](std::size_t wire, int fibre) { return Site{first_wire_[b] + wire, fibre}; };
   if (!with_rows) {
-    worker.scan.rank(bundle, means.plan(), from, mixed(means), columns, motion.samples);
+    worker.scan.rank(bundle, means.plan(), from, mixed(means), columns, motion.samples,
+                     lines_of(bundle, segment, means));
     worker.scan.for_each_rank([&](std::size_t wire, int fibre, const StrainMeasures& of) {
       out.seen.push_back(seen(site_of(wire, fibre), of));
     });
     return;
   }
-  worker.scan.run(bundle, means.plan(), from, mixed(means), columns, motion.samples);
+  worker.scan.run(bundle, means.plan(), from, mixed(means), columns, motion.samples, lines_of(bundle, segment, means));
   const std::vector<double> helix = helix_of(bundle.part, segment);
   worker.scan.for_each_site([&](std::size_t wire, int fibre, std::span<const TurningPoint> points) {
     append_site(out.rows, site_of(wire, fibre), segment, helix);
@@ -446,6 +536,8 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
   std::vector<double> strain(sites.size() * stride);
   kernels().node_strains(pointers(nesting), columns_of(sites[0], means, motion), 0, samples, strain.data(), stride);
   for (auto from = strain.begin(); from != strain.end(); from += stride) histories.emplace_back(from, from + samples);
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    line_of(sites[k], segment, means).add_to(histories[k].data(), angle_of(sites[k]));
   return histories;
 }
 
@@ -472,7 +564,10 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
   const std::size_t stride = padded(motion.samples);
   std::vector<float> strain(sites.size() * stride);
   kernels().node_strains_in_single(from, columns_of(sites[0], means, motion), 0, motion.samples, strain.data(), stride);
-  for (std::size_t k = 0; k < sites.size(); ++k) list({strain.data() + k * stride, motion.samples}, lists[k]);
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    line_of(sites[k], segment, means).add_to(strain.data() + k * stride, angle_of(sites[k]));
+    list({strain.data() + k * stride, motion.samples}, lists[k]);
+  }
 }
 
 std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> sites, std::size_t segment,
@@ -487,6 +582,7 @@ std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> site
   kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(), stride);
   std::vector<FibreHistory> all;
   for (std::size_t k = 0; k < sites.size(); ++k) {
+    line_of(sites[k], segment, means).add_to(rows.data() + k * of_one + mean_strain * stride, angle_of(sites[k]));
     all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0], means.plan()[wires_[sites[k].wire].layer],
                                 rows.data() + k * of_one, motion.samples, with_shear));
     all.back().site = site_row(segment, sites[k]);
@@ -673,7 +769,7 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   for (Worker& worker : workers_) worker.held[0]->begin(places_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
-    const bool same = bound->means.plan() == means_.plan();
+    const bool same = bound->means.plan() == means_.plan() && bound->means.lines() == means_.lines();
     const std::vector<Site> sites = sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
     put_bound(sites, bound->means, segment, motion, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
@@ -822,7 +918,11 @@ const ClampMeans& Evaluation::means_rubbing(double factor) {
   if (factor == 1) return means_;
   for (const auto& [known, means] : rubbing_)
     if (known == factor) return *means;
-  rubbing_.emplace_back(factor, std::make_unique<const ClampMeans>(means_.rubbing(factor)));
+  ClampMeans means = means_.rubbing(factor);
+  if (!line_layers_.empty())
+    factor == ClampMeans::glued ? means.set_lines({}, nullptr)
+                                : means.set_lines(line_layers_, lines_rubbing(factor, plan_of_lines_, line_layers_));
+  rubbing_.emplace_back(factor, std::make_unique<const ClampMeans>(std::move(means)));
   add_held(*rubbing_.back().second);
   return *rubbing_.back().second;
 }

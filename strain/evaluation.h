@@ -148,8 +148,8 @@ class Evaluation {
   void find_bent() { cables_.find_bent(); }  ///< see CablePaths
   void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
-  /// bend_wave: length over which the span's curvature changes, 2 pi rms/rms of its slope, of the part that varies in time [m];
-  /// infinite: no bend, or an even one. layer: of the layers on which friction has an effect, the one whose strain evens out over the
+  /// bend_wave: least length over which the curvature of the hose and its cables changes, see bend_wave(); infinite: no bend, or an
+  /// even one. layer: of the layers on which friction has an effect, the one whose strain evens out over the
   /// greatest length; -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer evens out from clamp to clamp,
   /// because it has no lay. own_lay: it evens out over its own lay.
   struct BendScale {
@@ -160,7 +160,7 @@ class Evaluation {
   const BendScale& evening() const { return evening_; }
   /// Returns the strain that bends of incomplete turns would cause, and that a layer which slides over its pitch lacks. Call
   /// record_net_bend() before the first sample.
-  NetBend::Largest net_bend() const { return net_bend_.value().largest(); }
+  NetBend::Largest net_bend() const { return net_bend_.value().largest(line_layers_); }
   void record_net_bend();
 
   /// Second pass. Evaluates segment `segment` of the span, whose history is `row` of `history`. Call in the order of
@@ -244,6 +244,16 @@ class Evaluation {
   /// Returns whether strains are composed wire by wire: in layers with friction, and in all layers when shear counts.
   bool mixed(const ClampMeans& means) const;
   void add_bends(const DeformationHistory& block);
+  void keep_bends(const SpanBlock& block);
+  void find_lines();
+  BentCables bent_cables() const;
+  /// Returns the strain of the layers in long waves with `factor` times the friction.
+  std::shared_ptr<const LongWaves> lines_rubbing(double factor, const std::vector<LayerSlip>& plan,
+                                                 const std::vector<int>& layers) const;
+  /// Returns one entry per wire layer of the bundle; empty: no layer lies in long waves.
+  std::vector<LineWave> lines_of(const Bundle& bundle, std::size_t segment, const ClampMeans& means) const;
+  LineWave line_of(Site site, std::size_t segment, const ClampMeans& means) const;
+  double angle_of(Site site) const;
   void add_means(const DeformationHistory& block);
   /// Returns the strains that friction holds under these means; null: none.
   HeldStrains* held_of(const ClampMeans& means, Worker& worker) const;
@@ -342,6 +352,10 @@ class Evaluation {
   };
   std::vector<Variance> bends_;  ///< (segment, 2) curvature, and its difference to that of the next segment
   std::optional<NetBend> net_bend_;
+  std::vector<int> line_layers_;           ///< layers of wires that slide as lines (W45)
+  std::vector<LayerSlip> plan_of_lines_;   ///< the job's own, without lines
+  std::optional<SegmentRows> hose_bends_;  ///< curvature about d1 and d2 at base end, segments, tool end [1/m]
+  Scratch scratch_;
   bool first_pass_ended_ = false;
   BendScale evening_;
   std::size_t meant_ = 0;                ///< number of samples that the means have received

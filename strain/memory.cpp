@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/limits.h"
@@ -12,6 +13,7 @@
 #include "pipeline/job/job.h"
 #include "strain/construction.h"
 #include "strain/history.h"
+#include "strain/long_waves.h"
 #include "strain/slip.h"
 #include "strain/starts.h"
 #include "strain/strain_file.h"
@@ -25,6 +27,7 @@ constexpr double value = sizeof(double);
 /// Counts of the construction of one dresspack.
 struct Counts {
   double widest_bundle = 0, bundles = 0, cables = 0, rubbing = 0, loose = 0;
+  double lines = 0;       ///< pairs of a layer of wires and a cable that may lie in long waves
   double clamp_rows = 0;  ///< histories of parts that slide from clamp to clamp, in the job and in the free bound
   double depth = 0;       ///< levels
   double most_fibres = 1;
@@ -38,15 +41,21 @@ Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& s
   counts.depth = construction.levels();
   counts.bundles = static_cast<double>(construction.bundles().size());
   counts.most_fibres = std::max(1, settings.surface_fibres);
+  // Bends of the shipped programs have up to six waves.
+  const std::vector<double> limits(construction.cables().size(), believable_evening * length / 8);
+  const std::vector<int> long_waves = LongWaves::layers_of(construction, free, limits);
+  std::set<std::pair<int, int>> lines;
   for (const Bundle& bundle : construction.bundles()) {
     double wires = 0;
     for (const int k : bundle.wire_layers) {
       wires += construction.layers()[k].count;
+      if (std::ranges::find(long_waves, k) != long_waves.end()) lines.emplace(k, construction.cable_of(bundle.part));
       for (const auto* plan : {&own, &free})
         if ((*plan)[k].sliding == Sliding::clamp_to_clamp) counts.clamp_rows += waves_per_layer;
     }
     counts.widest_bundle = std::max(counts.widest_bundle, wires);
   }
+  counts.lines = static_cast<double>(lines.size());
   for (const Part& part : construction.parts()) {
     const Layer& layer = construction.layers()[part.layer];
     if (layer.is_cable()) {
@@ -117,7 +126,9 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   // Each other set of cable places is kept in addition to the job's own, each with four frictions and two bounds. Other starts
   // have one friction.
   const double laid = 1 + static_cast<double>(placements_at_most(job)), frictions = job.uncertainty.enabled ? 6 : 1;
-  double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
+  const double room = static_cast<double>(default_history_bytes) / 2 /
+                      (static_cast<double>(spans.size()) * (laid + static_cast<double>(other_starts_at_most(job))));
+  double cable_rows = 0, bent_rows = 0, line_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;
     const double length =
@@ -131,7 +142,13 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     // (cable_paths.h); curvature along a loose cable (segment_rows.h), and the rows of one segment.
     cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
     cable_rows += (begun - laid + 1) * in_span * counts.rubbing / value;  // sides that rub (cable_rubbing.h)
-    bent_rows += begun * in_span * counts.loose;
+    // Stores that exceed their room are in files (segment_rows.h): curvature of loose cables and of the hose (evaluation.cpp), and
+    // strains of wires in long waves (long_waves.h), of which each thread also has one line.
+    const auto kept = [&](double of, double share) { return of * rows * value <= share * room ? of : 0; };
+    bent_rows += begun * kept(in_span * counts.loose, 1);
+    if (counts.loose < counts.cables) bent_rows += begun * kept(in_span, 1);
+    line_rows += laid * frictions * kept(in_span * counts.lines, share_of_lines);
+    cable_rows += counts.lines > 0 ? workers * in_span : 0;
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // Per thread: states of a part and of its parent, and the held strains of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
@@ -146,8 +163,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   need.add(
       std::min(rows * static_cast<double>(segments) * sizeof(Deformation), static_cast<double>(default_history_bytes)),
       fmt::format("histories of {} segments", segments), sampling);
-  need.add(std::min(bent_rows * rows * value, static_cast<double>(default_history_bytes) / 2),
-           "where loose cables bend", sampling);
+  need.add(bent_rows * rows * value, "where hose and loose cables bend", sampling);
+  need.add(line_rows * rows * value, "strains of wires in long waves", sampling);
   need.add(cable_rows * rows * value, "what cables do in each segment", "fewer simulation.segments, " + sampling);
   need.add((part_rows + found) * rows * value, "what parts do at each sample", sampling);
   const std::map<std::string, std::size_t> axes{{"sample", samples},

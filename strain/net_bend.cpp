@@ -74,11 +74,12 @@ void NetBend::add(const DeformationHistory& block) {
     }
 }
 
-NetBend::Largest NetBend::largest() const {
+NetBend::Largest NetBend::largest(const std::vector<int>& without) const {
   double bend = 0;
   for (const RangeOfVector& range : bends_) bend = std::max(bend, range.largest());
   Largest most;
   for (const OfLayer& of : layers_) {
+    if (std::ranges::find(without, of.layer) != without.end()) continue;
     const double strain = of.range.largest(), own = of.wire_radius * bend;
     if (strain * most.own >= most.strain * own && strain > 0) most = {of.layer, of.lay, strain, own};
   }

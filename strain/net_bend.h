@@ -44,7 +44,8 @@ class NetBend {
     double lay = 0;  ///< lay length [m]
     double strain = 0, own = 0;
   };
-  Largest largest() const;
+  /// without: layers whose strain is in the lives (W45).
+  Largest largest(const std::vector<int>& without = {}) const;
 
  private:
   struct OfLayer {

@@ -13,10 +13,6 @@
 // linear and rising. A limit f moves the two sides of its zero apart by 2 f, and an element adds a line
 // (N. Johnson, J. Comput. Graph. Stat. 22 (2013), for the same sums in statistics).
 // Without friction T is uniform, with the mean strain. With limits beyond all forces the part is glued.
-//
-// Usually friction is weak and every node slides. Then T_i = T_{i-1} + s_i f_i with s_i = +1 or -1, and T_0 follows from
-// sum l_i (T_i - EA tried_i) = 0. This is the minimum if sum_{j<i} l_j (T_j - EA tried_j), which is E A times the slide
-// of node i, has the sign s_i at every node. The signs of the previous sample are tried first.
 #pragma once
 
 #include <span>
@@ -55,19 +51,12 @@ class SlidingLine {
     double at, bend;
   };
 
-  bool all_slide(std::span<const double> limits);
-  void widen(double limit);
-  void add(double weight, double target);
-
   std::vector<double> lengths_;
   double stiffness_, base_grip_, tool_grip_;
   std::vector<double> slid_;  ///< (element) (u_{i+1} - u_i) / l_i
   std::vector<double> force_, tried_, least_;
-  std::vector<double> sign_, slide_;  ///< (element) of the node before it: sign s, and E A times its slide
-  bool all_slid_ = true;              ///< result of the last attempt
+  std::vector<Knot> below_, above_;  ///< room for those on each side of the minimum
   double length_, soft_weight_;
-  std::vector<Knot> below_, above_;
-  double below_shift_ = 0, above_shift_ = 0, slope_ = 0, at_zero_ = 0, lowest_at_ = 0;
   double let_in_[2]{}, travel_[2]{};
 };
 

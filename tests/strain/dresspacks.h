@@ -3,6 +3,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/job/dresspack.h"
+#include "strain/evaluation.h"
 
 namespace test_dresspacks {
 
@@ -56,6 +57,14 @@ inline Dresspack thesis_dresspack() {
   Dresspack dresspack;
   dresspack.components = {cable};
   return dresspack;
+}
+
+/// Returns the place of a span of this length whose cable is longer by a rounding error, as in a rig that shows a part of its cable: no
+/// wire is a line (W45), so the laws of one place, (W10) and (W16), hold exactly.
+inline dresslife::strain::SpanPlace part_of_rig(double length = 2) {
+  dresslife::strain::SpanPlace place;
+  place.clamped_length = length * (1 + 1e-12);
+  return place;
 }
 
 }  // namespace test_dresspacks

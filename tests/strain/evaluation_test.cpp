@@ -50,7 +50,8 @@ void join(SiteRows& all, const SiteRows& more) {
 
 Results evaluate(const Construction& construction, const Settings& settings, const DeformationHistory& history,
                  std::size_t segments, double length = 2) {
-  Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments), history.samples());
+  Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments), history.samples(), 1,
+                        part_of_rig(length));
   evaluation.add({history});
   Results results;
   Sink sink;

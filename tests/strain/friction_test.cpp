@@ -86,7 +86,8 @@ Results results_of(Evaluation& evaluation, const DeformationHistory& history) {
 Results evaluate(const Dresspack& dresspack, const Settings& settings, std::size_t block = 0) {
   const Construction construction(dresspack, settings.kinematics);
   const DeformationHistory history = moving();
-  Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
+  Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples, 1,
+                        part_of_rig());
   for (std::size_t first = 0, size = block == 0 ? samples : block; first < samples; first += size) {
     const std::size_t count = std::min(size, samples - first);
     DeformationHistory part(segments, count);
