@@ -156,7 +156,7 @@ class Judge {
             fmt::format(
                 "radial_line_load_N_per_m of '{}' is {:.4g}, {:.3g} MPa on its width (limit {:g}: jackets yield)",
                 of.name, *of.radial_line_load, pressure / 1e6, strongest_jacket / 1e6),
-            "another unit", "a jacket's 0.05 MPa times the part's width, or no key");
+            "another unit", "a jacket's 0.17 MPa times the part's width, or no key");
       if (const double usual = jacket_base + jacket_slope * 2 * (of.radius - (of.jacket ? of.jacket->thickness : 0));
           of.jacket && of.jacket->thickness > thickest_jacket * usual)
         add(of.where,

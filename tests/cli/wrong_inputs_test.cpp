@@ -623,7 +623,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "slack_percent: 1",
      "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5",
      "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)",
-     "0.05 MPa times the part's width"},
+     "0.17 MPa times the part's width"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack, length too long",
      "routing.free_length_m: 2.035"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81",
