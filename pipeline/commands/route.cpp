@@ -151,23 +151,21 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   std::vector<Finalist> finalists;
   for (const std::size_t k : best_first) {
     const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    const std::vector<StudyJob> placed{{"place", std::make_shared<const Job>(job_from(document)), ""}};
-    Finalist finalist{trial.outcomes[k], nudges_of(placed, tolerance_for(draft, options)), {}};
-    set_runs(finalist, known_sets(placed), [&, k, document](const auto& sets_of_runs, const auto& names) {
-      Study study{draft.name, {}, Keep::lives};
-      for (std::size_t j = 0; j < names.size(); ++j) {
-        Node off = document;
-        for (const std::string& set : sets_of_runs[j]) apply_set(off, set);
-        study.jobs.push_back({fmt::format("{}_off_{}", trial.rows[k].job, names[j]), as_candidate(job_from(off)), ""});
-      }
-      const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
-      std::vector<Outcome> outcomes;
-      for (const StudyJob& job : study.jobs)
-        for (const RankingRow& row : rows)
-          if (row.job == job.name) outcomes.push_back(outcome_of(row, places.job(row.job)));
-      return outcomes;
-    });
-    finalists.push_back(std::move(finalist));
+    finalists.push_back(finalist_of(
+        trial.outcomes[k], tolerance_for(draft, options),
+        [&, k, document](const std::vector<std::string>& sets, const std::string& name) {
+          Node off = document;
+          for (const std::string& set : sets) apply_set(off, set);
+          return std::vector{
+              StudyJob{fmt::format("{}_off_{}", trial.rows[k].job, name), as_candidate(job_from(off)), ""}};
+        },
+        [&](const std::vector<StudyJob>& jobs) {
+          const std::vector<RankingRow> rows =
+              made_rows({draft.name, jobs, Keep::lives}, places, runs.options(), files);
+          return mapped(jobs, [&](const StudyJob& job) {
+            return outcome_of(*find_in(rows, &RankingRow::job, job.name), places.job(job.name));
+          });
+        }));
   }
   const auto progress = [&](const ToleranceCount& count) { runs.begin(count); };
   std::optional<std::size_t> own;

@@ -113,36 +113,22 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   if (found.front.size() > 1 && best_first.size() > 1) best_first.erase(best_first.begin() + 1, best_first.end());
   const Outcome& as_it_is = found.trials.front().worst;
   std::vector<Finalist> finalists;
-  const auto finalist_of = [&](const Final* of) {
-    const std::vector<std::string>& sets = found.trials[of->trial].sets;
-    const std::vector<StudyJob> placed = changed_jobs(request, sets, "place");
-    Finalist finalist{found.trials[of->trial].worst, nudges_of(placed, tolerance), {}};
-    // (run) the changes of each run and its name
-    const auto outcomes_of = [&, trial = of->trial, sets](const std::vector<std::vector<std::string>>& runs,
-                                                          const std::vector<std::string>& run_names) {
-      Study study{found.name, {}, found.keep_trials};
-      std::vector<std::vector<std::string>> jobs(runs.size());
-      for (std::size_t k = 0; k < runs.size(); ++k) {
-        std::vector<std::string> all = sets;
-        all.insert(all.end(), runs[k].begin(), runs[k].end());
-        for (StudyJob& job : changed_jobs(request, all, fmt::format("off_{:04}_{}", trial, run_names[k]))) {
-          jobs[k].push_back(job.name);
-          study.jobs.push_back(std::move(job));
-        }
-      }
-      const std::vector<RankingRow> rows = make_rows(study);
-      std::vector<Outcome> worst;
-      for (const std::vector<std::string>& names : jobs) {
-        const auto its_rows = filtered(rows, [&](const RankingRow& row) { return is_of(row, names); });
-        worst.push_back(worst_of(mapped(
-            its_rows, [&](const RankingRow& row) { return outcome_of(row, places.job(row.job), found.limits); })));
-      }
-      return worst;
-    };
-    set_runs(finalist, known_sets(placed), outcomes_of);
-    return finalist;
+  const auto finalist = [&](const Final* of) {
+    return finalist_of(
+        found.trials[of->trial].worst, tolerance,
+        [&, number = of->trial](const std::vector<std::string>& sets, const std::string& name) {
+          std::vector<std::string> all = found.trials[number].sets;
+          all.insert(all.end(), sets.begin(), sets.end());
+          return changed_jobs(request, all, fmt::format("off_{:04}_{}", number, name));
+        },
+        [&](const std::vector<StudyJob>& jobs) {
+          const std::vector<RankingRow> rows = make_rows({found.name, jobs, found.keep_trials});
+          return mapped(jobs, [&](const StudyJob& job) {
+            return outcome_of(*find_in(rows, &RankingRow::job, job.name), places.job(job.name), found.limits);
+          });
+        });
   };
-  for (const Final* of : best_first) finalists.push_back(finalist_of(of));
+  for (const Final* of : best_first) finalists.push_back(finalist(of));
   const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);
   for (std::size_t k = 0; k < judged.size(); ++k) best_first[k]->tolerance = judged[k];
   // The original jobs are also evaluated within the tolerance, unless the best is better than their merit without offset.
@@ -151,7 +137,7 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   if (best && best->tolerance && best->tolerance->whole && as_it_is.feasible() &&
       original.merit > best->tolerance->worst)
     original.tolerance = within_tolerance(
-        finalist_of(&original), as_it_is,
+        finalist(&original), as_it_is,
         [&](const Merit& worst) { return clearly_better(best->tolerance->worst, worst); }, judged, progress);
 }
 

@@ -148,30 +148,34 @@ ToleranceCount count_of(const std::vector<const WithinTolerance*>& all, const Fi
 
 }  // namespace
 
-std::vector<std::string> known_sets(const std::vector<StudyJob>& jobs) {
-  const bool uncertain =
-      std::ranges::any_of(jobs, [](const StudyJob& job) { return job.job && job.job->uncertainty.enabled; });
-  return uncertain ? std::vector<std::string>{"uncertainty.enabled=false"} : std::vector<std::string>{};
-}
-
-void set_runs(Finalist& finalist, const std::vector<std::string>& known,
-              const std::function<std::vector<Outcome>(const std::vector<std::vector<std::string>>&,
-                                                       const std::vector<std::string>&)>& outcomes_of) {
-  finalist.run = [nudges = finalist.nudges, outcomes_of](const std::vector<std::size_t>& numbers) {
-    return outcomes_of(mapped(numbers, [&](std::size_t k) { return nudges[k].sets; }),
-                       mapped(numbers, [](std::size_t k) { return fmt::format("{:02}", k + 1); }));
-  };
-  if (known.empty() || finalist.nudges.size() <= full_at_once) return;
-  finalist.run_known = [nudges = finalist.nudges, known, outcomes_of](const std::vector<std::size_t>& numbers) {
-    std::vector<std::vector<std::string>> runs{known};
-    std::vector<std::string> names{"00_known"};
+Finalist finalist_of(
+    const Outcome& drawn, const MountingTolerance& tolerance,
+    const std::function<std::vector<StudyJob>(const std::vector<std::string>&, const std::string&)>& jobs_with,
+    const std::function<std::vector<Outcome>(const std::vector<StudyJob>&)>& run) {
+  const std::vector<StudyJob> placed = jobs_with({}, "place");
+  Finalist finalist{drawn, nudges_of(placed, tolerance), {}};
+  const auto runs_of = [=, nudges = finalist.nudges](const std::vector<std::size_t>& numbers, bool known) {
+    const std::vector<std::string> certain{"uncertainty.enabled=false"};
+    std::vector<StudyJob> jobs;
+    if (known) jobs = jobs_with(certain, "00_known");
     for (const std::size_t k : numbers) {
-      runs.push_back(nudges[k].sets);
-      runs.back().insert(runs.back().end(), known.begin(), known.end());
-      names.push_back(fmt::format("{:02}_known", k + 1));
+      std::vector<std::string> sets = nudges[k].sets;
+      if (known) sets.insert(sets.end(), certain.begin(), certain.end());
+      std::ranges::move(jobs_with(sets, fmt::format("{:02}{}", k + 1, known ? "_known" : "")),
+                        std::back_inserter(jobs));
     }
-    return outcomes_of(runs, names);
+    const std::vector<Outcome> outcomes = run(jobs);
+    std::vector<Outcome> worst;
+    for (auto one = outcomes.begin(); one != outcomes.end(); one += placed.size())
+      worst.push_back(worst_of({one, one + placed.size()}));
+    return worst;
   };
+  finalist.run = [=](const auto& numbers) { return runs_of(numbers, false); };
+  const bool uncertain =
+      std::ranges::any_of(placed, [](const StudyJob& job) { return job.job && job.job->uncertainty.enabled; });
+  if (uncertain && finalist.nudges.size() > full_at_once)
+    finalist.run_known = [=](const auto& numbers) { return runs_of(numbers, true); };
+  return finalist;
 }
 
 Outcome estimated(const Outcome& off, const Outcome& own, const Outcome& drawn) {

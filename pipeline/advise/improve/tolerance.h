@@ -2,8 +2,8 @@
 //
 // (T1) m_w = min(m, m_1, ..., m_n)   m: merit (merit.h) without offset; m_i: merit with one offset by the tolerance, of a clamp,
 //                                    a ring, a length or the turn of the end (nudges.h); the least merit if the job does not run
-// (T2) t_i ~ t q_i / q               t: life in a full run; q: life in a run without uncertain inputs (known_sets()), which takes
-//                                    0.12 to 0.37 of the time; i: with offset i
+// (T2) t_i ~ t q_i / q               t: life in a full run; q: life in a run without uncertain inputs, which takes 0.12 to 0.37
+//                                    of the time; i: with offset i
 //
 // A run without uncertain inputs has the limits of the full run, because limits are those of the job's own values. Lives by modes
 // without a validated law have the same ratio t_i / t in both (measured for jacket wear and abrasion). So (T2) estimates only the
@@ -37,14 +37,12 @@ struct Finalist {
   RunNudges run_known{};
 };
 
-/// Returns the changes after which no input is uncertain; empty: none is uncertain in any job.
-std::vector<std::string> known_sets(const std::vector<StudyJob>& jobs);
-
-/// Sets both functions of a finalist. outcomes_of: runs the finalist's jobs with each of these sets of changes, under these short
-/// names, and returns the worst outcome of each.
-void set_runs(Finalist& finalist, const std::vector<std::string>& known,
-              const std::function<std::vector<Outcome>(const std::vector<std::vector<std::string>>&,
-                                                       const std::vector<std::string>&)>& outcomes_of);
+/// Returns a finalist with its nudges and both of its runs. drawn: its outcome without offset. jobs_with: returns its jobs with further
+/// changes, as jobs of a run with this short name. run: returns the outcomes of jobs in their order.
+Finalist finalist_of(const Outcome& drawn, const MountingTolerance& tolerance,
+                     const std::function<std::vector<StudyJob>(const std::vector<std::string>& sets,
+                                                               const std::string& name)>& jobs_with,
+                     const std::function<std::vector<Outcome>(const std::vector<StudyJob>&)>& run);
 
 /// Returns the outcome of a nudge by (T2). off, own: in runs without uncertain inputs, with the offset and without. drawn: in a full
 /// run without offset. A life whose ratio is not finite is the shorter one.
