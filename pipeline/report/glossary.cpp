@@ -7,7 +7,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr GlossaryEntry entries[] = {
+constexpr struct {
+  const char *word, *meaning;
+} entries[] = {
+    // sorted by word
     {"bend radius", "radius of the circle that fits a curve at a place; the smaller it is, the more the hose is bent"},
     {"bore", "inside of a hose, where its cables and hoses lie (inner_diameter_mm)"},
     {"cable", "part of a dresspack with conductors in it, in a jacket of its own"},
@@ -72,11 +75,9 @@ constexpr GlossaryEntry entries[] = {
 
 }  // namespace
 
-std::span<const GlossaryEntry> glossary() { return entries; }
-
 std::string glossary_html() {
   std::string text = "<details id=\"words\"><summary>What the words mean</summary>\n<dl>\n";
-  for (const GlossaryEntry& entry : entries)
+  for (const auto& entry : entries)
     text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(entry.word), escaped(entry.meaning));
   return text + "</dl></details>\n";
 }

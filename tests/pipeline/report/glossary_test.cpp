@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <vector>
 
 using namespace dresslife::pipeline;
 
@@ -12,9 +13,11 @@ TEST_CASE("glossary: words are sorted, each stands once, and a page of 60 lines 
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text;
   };
-  const auto entries = glossary();
-  for (std::size_t k = 1; k < entries.size(); ++k) CHECK(lower(entries[k - 1].word) < lower(entries[k].word));
-  CHECK(entries.size() <= 60);
-  for (const GlossaryEntry& entry : entries)
-    CHECK(glossary_html().find(std::string("<dt>") + entry.word + "</dt>") != std::string::npos);
+  std::vector<std::string> words;
+  const std::string page = glossary_html();
+  for (std::size_t at = page.find("<dt>"); at != std::string::npos; at = page.find("<dt>", at + 1))
+    words.push_back(lower(page.substr(at + 4, page.find("</dt>", at) - at - 4)));
+  for (std::size_t k = 1; k < words.size(); ++k) CHECK(words[k - 1] < words[k]);
+  CHECK(words.size() > 20);
+  CHECK(words.size() <= 60);
 }
