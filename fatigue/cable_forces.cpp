@@ -11,6 +11,7 @@
 #include "fatigue/cable_cures.h"
 #include "fatigue/strain_relief.h"
 #include "fatigue/varied_forces.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
@@ -31,9 +32,7 @@ struct Cables {
 
 /// Moves some cables out of `cables`; their strains there are empty afterwards.
 std::vector<PulledCable> taken(Cables& cables, const std::vector<std::size_t>& which) {
-  std::vector<PulledCable> of_span;
-  for (const std::size_t k : which) of_span.push_back(std::move(cables.all[k]));
-  return of_span;
+  return pipeline::mapped(which, [&](std::size_t k) { return std::move(cables.all[k]); });
 }
 
 Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
@@ -102,8 +101,7 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
   std::vector<std::vector<double>> tension(cables.all.size());
   std::vector<double> cable_moment,
       hose_moment;  // of the span with the largest moment of cables over the moment of the hose
-  std::vector<pipeline::CableForce> force;
-  for (const PulledCable& cable : cables.all) force.push_back(cable.force);
+  const auto force = pipeline::mapped(cables.all, &PulledCable::force);
   double force_share = 0, moment_share = 0, relief_share = 0;
   std::size_t strained = 0, at_sample = 0;  // cable with the largest share of its strength, and the sample
   std::size_t bender = 0, bent_sample = 0;  // cable with the largest pull at the most bent clamp, and the sample

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/job/job.h"
 
 namespace dresslife::fatigue {
@@ -184,9 +185,7 @@ std::size_t ModeList::of(const std::string& wire) const {
 }
 
 std::vector<std::size_t> ModeList::of(const TextColumn& component) const {
-  std::vector<std::size_t> modes;
-  for (const std::string& path : component.values) modes.push_back(of(path));
-  return modes;
+  return pipeline::mapped(component.values, [&](const std::string& path) { return of(path); });
 }
 
 pipeline::ParameterKnowledge knowledge_of_job(const pipeline::Job& job) {

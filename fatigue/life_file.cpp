@@ -20,6 +20,7 @@
 #include "fatigue/unvalidated.h"
 #include "fatigue/verdict.h"
 #include "fatigue/wall_life.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
@@ -35,9 +36,7 @@ using pipeline::FileReader;
 using pipeline::FileWriter;
 
 std::vector<float> as_floats(const std::vector<Reversal>& reversals) {
-  std::vector<float> strains;
-  for (const Reversal& reversal : reversals) strains.push_back(static_cast<float>(reversal.strain));
-  return strains;
+  return pipeline::mapped(reversals, [](const Reversal& reversal) { return static_cast<float>(reversal.strain); });
 }
 
 /// Data that several parts of the output need.
@@ -132,17 +131,10 @@ void check_steps(const Context& c) {
   }
 }
 
-template <class T>
-void put(FileWriter& file, const std::string& dataset, const std::vector<T>& values) {
-  file.append(dataset, std::span<const T>(values));
-}
-
 std::vector<std::uint32_t> as_index(const std::vector<std::size_t>& sites) { return {sites.begin(), sites.end()}; }
 
 std::vector<double> damage_at(const Context& c, const std::vector<std::size_t>& sites) {
-  std::vector<double> damage;
-  for (const std::size_t site : sites) damage.push_back(site == no_site ? 0 : c.damage.damage[site]);
-  return damage;
+  return pipeline::mapped(sites, [&](std::size_t site) { return site == no_site ? 0 : c.damage.damage[site]; });
 }
 
 void write_sites(const Context& c) {
@@ -152,10 +144,8 @@ void write_sites(const Context& c) {
   });
   for (const char* table : {"/site/segment", "/site/component", "/site/helix", "/site/fibre", "/site/material"})
     c.life.copy(c.strain, table);
-  put(c.life, "/damage", c.damage.damage);
-  std::vector<double> life;
-  for (const double damage : c.damage.damage) life.push_back(life_in_repeats(damage));
-  put(c.life, "/life", life);
+  c.life.append("/damage", c.damage.damage);
+  c.life.append("/life", pipeline::mapped(c.damage.damage, life_in_repeats));
 }
 
 void write_listed_cycles(const Context& c) {
@@ -166,12 +156,8 @@ void write_listed_cycles(const Context& c) {
     site.insert(site.end(), own.size(), listed);
     cycles.insert(cycles.end(), own.begin(), own.end());
   }
-  const auto put_column = [&](const char* name, auto value) {
-    std::vector<decltype(value(cycles[0]))> column;
-    for (const DamagingCycle& d : cycles) column.push_back(value(d));
-    put(c.life, name, column);
-  };
-  put(c.life, "/cycles/site", as_index(site));
+  const auto put_column = [&](const char* name, auto value) { c.life.append(name, pipeline::mapped(cycles, value)); };
+  c.life.append("/cycles/site", as_index(site));
   put_column("/cycles/begin", [](const DamagingCycle& d) { return static_cast<std::uint32_t>(d.cycle.begin.sample); });
   put_column("/cycles/end", [](const DamagingCycle& d) { return static_cast<std::uint32_t>(d.cycle.end.sample); });
   put_column("/cycles/range", [](const DamagingCycle& d) { return d.cycle.range(); });
@@ -189,28 +175,27 @@ std::vector<std::size_t> worst_by_segment(const Context& c, bool wires) {
 
 void write_segments(const Context& c) {
   const auto worst = worst_by_segment(c, true);
-  put(c.life, "/segment/length", c.segment_length);
-  put(c.life, "/segment/dresspack", std::vector<std::int32_t>(c.dresspack.begin(), c.dresspack.end()));
-  put(c.life, "/segment/worst_site", as_index(worst));
-  put(c.life, "/segment/damage", damage_at(c, worst));
+  c.life.append("/segment/length", c.segment_length);
+  c.life.append("/segment/dresspack", std::vector<std::int32_t>(c.dresspack.begin(), c.dresspack.end()));
+  c.life.append("/segment/worst_site", as_index(worst));
+  c.life.append("/segment/damage", damage_at(c, worst));
   c.life.set_axis("sample", c.time.size());
   for (const std::size_t site : worst) {
     const auto cycles = c.cycles_of(site);
-    put(c.life, "/damage_rate", damage_over_time(cycles, c.time.size(), Moment::closes));
-    put(c.life, "/damage_rate_opened", damage_over_time(cycles, c.time.size(), Moment::opens));
+    c.life.append("/damage_rate", damage_over_time(cycles, c.time.size(), Moment::closes));
+    c.life.append("/damage_rate_opened", damage_over_time(cycles, c.time.size(), Moment::opens));
   }
 }
 
 /// Writes the worst wire of each dresspack.
 void write_dresspacks(const Context& c) {
-  std::vector<std::string> names;
-  for (const pipeline::MountedDresspack& mounted : c.job.dresspacks) names.push_back(mounted.name);
+  const auto names = pipeline::mapped(c.job.dresspacks, &pipeline::MountedDresspack::name);
   const auto worst = worst_by_group(c.damage, names.size(), [&](std::size_t site) {
     return c.damage.is_wire(site) ? c.dresspack_of(site) : no_site;
   });
-  put(c.life, "/dresspack/name", names);
-  put(c.life, "/dresspack/worst_site", as_index(worst));
-  put(c.life, "/dresspack/damage", damage_at(c, worst));
+  c.life.append("/dresspack/name", names);
+  c.life.append("/dresspack/worst_site", as_index(worst));
+  c.life.append("/dresspack/damage", damage_at(c, worst));
   c.life.attribute("worst_dresspack", pipeline::name_among(c.job, c.dresspack_of(c.worst)));
 }
 
@@ -243,9 +228,9 @@ void write_layers(const Context& c) {
   const Layers layers = layers_of(c, c.component);
   const auto worst = worst_by_group(c.damage, layers.name.size(),
                                     [&](std::size_t site) { return layers.of_component[c.component.index[site]]; });
-  put(c.life, "/layer/component", layers.name);
-  put(c.life, "/layer/worst_site", as_index(worst));
-  put(c.life, "/layer/damage", damage_at(c, worst));
+  c.life.append("/layer/component", layers.name);
+  c.life.append("/layer/worst_site", as_index(worst));
+  c.life.append("/layer/damage", damage_at(c, worst));
 }
 
 /// Groups for settle(): one layer of wires in one segment is a group. The relaxation of its worst wire is used for the others
@@ -303,11 +288,11 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   for (const FailureLives& conductor : scatter.conductor) {
     for (const Percentiles& failure : conductor) lives.insert(lives.end(), failure.begin(), failure.end());
   }
-  put(c.life, "/conductor/component", conductors.path);
-  put(c.life, "/conductor/wires", wires);
-  put(c.life, "/conductor/worst_site", as_index(conductors.worst));
-  put(c.life, "/conductor/life", lives);
-  put(c.life, "/conductor/place_life", scatter.place);
+  c.life.append("/conductor/component", conductors.path);
+  c.life.append("/conductor/wires", wires);
+  c.life.append("/conductor/worst_site", as_index(conductors.worst));
+  c.life.append("/conductor/life", lives);
+  c.life.append("/conductor/place_life", scatter.place);
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double by_scatter = hours(scatter.first_place.lives[i], c.repeat_seconds());
     c.life.attribute(fmt::format("life_hours_{}", ends[i]),
@@ -391,11 +376,10 @@ std::vector<double> worst_history(const Context& c) {
 
 /// Writes the strain of the worst wire, and its stress if a wire was evaluated.
 void put_worst(const Context& c, const std::vector<double>& strain) {
-  put(c.life, "/worst/strain", strain);
+  c.life.append("/worst/strain", strain);
   if (c.worst != no_site)
-    put(c.life, "/worst/stress",
-        stress_along(strain, pipeline::material_of(c.job, c.sites.material()[c.worst]), c.job.fatigue,
-                     c.offset_share(c.worst)));
+    c.life.append("/worst/stress", stress_along(strain, pipeline::material_of(c.job, c.sites.material()[c.worst]),
+                                                c.job.fatigue, c.offset_share(c.worst)));
 }
 
 /// Writes the strain of the worst wire; linear between the turning points if the history is unknown. Returns the known strains.
@@ -418,14 +402,14 @@ std::vector<Reversal> write_worst_strain(const Context& c) {
 }
 
 void write_program(const Context& c, const std::vector<DamagingCycle>& cycles) {
-  put(c.life, "/time", c.time);
-  put(c.life, "/program/step", c.step);
-  put(c.life, "/program/text", c.step_text);
+  c.life.append("/time", c.time);
+  c.life.append("/program/step", c.step);
+  c.life.append("/program/text", c.step_text);
   const auto by_step = [&](Moment moment) {
     return damage_by_step(damage_over_time(cycles, c.time.size(), moment), c.step, c.step_text.size());
   };
-  put(c.life, "/program/damage", by_step(Moment::closes));
-  put(c.life, "/program/damage_opened", by_step(Moment::opens));
+  c.life.append("/program/damage", by_step(Moment::closes));
+  c.life.append("/program/damage_opened", by_step(Moment::opens));
 }
 
 /// Writes the damage near each clamp of each dresspack.
@@ -446,8 +430,8 @@ void write_clamps(const Context& c) {
     const auto each = damage_by_clamp(std::span(damage).subspan(first, end - first), lengths, at);
     near.insert(near.end(), each.begin(), each.end());
   }
-  put(c.life, "/clamp/name", names);
-  put(c.life, "/clamp/damage", near);
+  c.life.append("/clamp/name", names);
+  c.life.append("/clamp/damage", near);
 }
 
 /// Writes the damage by joint and clamp. Writes nothing about joints if the motion is given by its clamps.
@@ -462,9 +446,9 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles, co
   std::vector<std::string> names = c.job.robot.axis_names();
   names.push_back("carrying");
   c.life.set_axis("cause", names.size());
-  put(c.life, "/joint/name", names);
-  put(c.life, "/joint/damage", by_joint.damage);
-  put(c.life, "/program/joint_damage", by_joint.by_line);
+  c.life.append("/joint/name", names);
+  c.life.append("/joint/damage", by_joint.damage);
+  c.life.append("/program/joint_damage", by_joint.by_line);
   c.life.attribute("joint_explained", surface.explained());
   const auto most = std::ranges::max_element(by_joint.damage) - by_joint.damage.begin();
   const double total = sum_of_damage(cycles);
@@ -561,8 +545,8 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
 std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::vector<double>& lives) {
   if (c.worst_wall == no_site) return {};
   const auto worst_sites = worst_by_segment(c, false);
-  put(c.life, "/hose/worst_site", as_index(worst_sites));
-  put(c.life, "/hose/damage", damage_at(c, worst_sites));
+  c.life.append("/hose/worst_site", as_index(worst_sites));
+  c.life.append("/hose/damage", damage_at(c, worst_sites));
   const Worst worst = worst_of(c, c.worst_wall, c.cycles_of(c.worst_wall));
   put_attributes(c.life, worst, "hose_", "hose_");
   std::vector<pipeline::UnvalidatedMode> modes;
@@ -673,9 +657,9 @@ void write_shear(const Context& c) {
       angle.push_back(plane.theta);
       damage.push_back(plane.damage);
     }
-    put(c.life, "/plane/site", as_index(c.planes->sites()));
-    put(c.life, "/plane/angle", angle);
-    put(c.life, "/plane/damage", damage);
+    c.life.append("/plane/site", as_index(c.planes->sites()));
+    c.life.append("/plane/angle", angle);
+    c.life.append("/plane/damage", damage);
     if (const CriticalPlane* plane = c.planes->of(c.worst)) c.life.attribute("worst_plane_angle", plane->theta);
   }
   if (!c.strain.has("/probe/shear")) return;

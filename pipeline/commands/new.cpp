@@ -274,9 +274,8 @@ std::string job_of_urdf(const NewOptions& options, const std::vector<double>& ac
   };
   Node job;
   job["robot"]["urdf"] = in_full(options.robot);
-  std::vector<Node> numbers;
-  for (const double acceleration : accelerations) numbers.push_back(scalar(shortest_text(acceleration)));
-  job["robot"]["accelerations_deg_per_s2"] = list_of(std::move(numbers));
+  job["robot"]["accelerations_deg_per_s2"] =
+      list_of(mapped(accelerations, [](double acceleration) { return scalar(shortest_text(acceleration)); }));
   job["dresspack"] = in_full(options.dresspack);
   if (!options.program.empty()) job["motion"] = in_full(options.program);
   return with_mark(to_yaml(job), Mark::yaml);

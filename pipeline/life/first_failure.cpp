@@ -618,9 +618,7 @@ std::vector<double> compared_failures(const FailureModes& modes, const std::stri
 }
 
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job, std::size_t samples) {
-  std::vector<std::vector<double>> lives;
-  for (const LifeResponse& mode : modes) lives.push_back(first_failures({mode}, job, samples));
-  return lives;
+  return mapped(modes, [&](const LifeResponse& mode) { return first_failures({mode}, job, samples); });
 }
 
 PreparedModes::PreparedModes(const FailureModes& of) : modes(of), surfaces(surfaces_of(of)) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/program_files.h"
 #include "pipeline/base/warning_words.h"
@@ -29,17 +30,16 @@ std::vector<double> numbers_of(const Quaternion& q) { return {q.w(), q.x(), q.y(
 std::vector<double> numbers_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::vector<NamedFrame> frames_of(const std::vector<pipeline::MotionFrame>& written) {
-  std::vector<NamedFrame> frames;
-  for (const pipeline::MotionFrame& frame : written)
-    frames.push_back({frame.name, {frame.position, quaternion_of(frame.quaternion)}, frame.stationary});
-  return frames;
+  return pipeline::mapped(written, [](const pipeline::MotionFrame& frame) {
+    return NamedFrame{frame.name, {frame.position, quaternion_of(frame.quaternion)}, frame.stationary};
+  });
 }
 
 std::vector<pipeline::MotionFrame> frames_of(const std::vector<NamedFrame>& read) {
-  std::vector<pipeline::MotionFrame> frames;
-  for (const NamedFrame& frame : read)
-    frames.push_back({frame.name, frame.frame.position, numbers_of(frame.frame.orientation), frame.stationary});
-  return frames;
+  return pipeline::mapped(read, [](const NamedFrame& frame) {
+    return pipeline::MotionFrame{frame.name, frame.frame.position, numbers_of(frame.frame.orientation),
+                                 frame.stationary};
+  });
 }
 
 SourceFile source_of(const std::filesystem::path& file, const std::map<std::string, std::string>& instead) {
@@ -302,8 +302,7 @@ namespace {
 /// which KRL and INFORM programs see on the controller.
 void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std::string, std::string>& instead,
                  std::deque<SourceFile>& files) {
-  std::vector<std::filesystem::path> wanted;
-  for (const pipeline::ProgramFile& module : motion.modules) wanted.push_back(module.file);
+  std::vector<std::filesystem::path> wanted = pipeline::mapped(motion.modules, &pipeline::ProgramFile::file);
   const auto add_folder_of = [&](const std::filesystem::path& file) {
     const std::vector<std::filesystem::path> files_beside = pipeline::program_files(file);
     wanted.insert(wanted.end(), files_beside.begin(), files_beside.end());
@@ -543,8 +542,7 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
 }
 
 std::vector<std::string> skipped_lines(const Program& program) {
-  std::vector<std::string> lines;
-  for (const pipeline::Warning& warning : moves_left_out(program)) lines.push_back(warning.line());
+  std::vector<std::string> lines = pipeline::mapped(moves_left_out(program), &pipeline::Warning::line);
   std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> count
   for (const Skipped& skipped : program.skipped) {
     if (skipped.may_move) continue;

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/lists.h"
 #include "sim/program/axis_names.h"
 #include "sim/recording/log_columns.h"
 #include "sim/recording/log_time.h"
@@ -344,16 +345,13 @@ class Pass {
   /// Assigns the columns to joints by the names in the first row.
   void order_by_names(const CsvRow& row) {
     if (columns_.names.empty()) return;
-    std::vector<std::string> names;
-    for (const std::size_t column : columns_.names) names.push_back(row[column].text);
-    const auto order = order_of_axes(names, "");
+    const auto order = order_of_axes(
+        pipeline::mapped(columns_.names, [&](std::size_t column) { return std::string(row[column].text); }), "");
     if (!order)
       throw InputError(
           log_.where(row[columns_.names.front()]), "the names of the joints do not give their order on the robot",
           "give --value joints=NAME,NAME,.. with the columns of the positions in the order of the robot's axes");
-    std::vector<std::size_t> axes;
-    for (const std::size_t k : *order) axes.push_back(columns_.axes[k]);
-    columns_.axes = axes;
+    columns_.axes = pipeline::mapped(*order, [&](std::size_t k) { return columns_.axes[k]; });
     columns_.names.clear();
   }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/job/line_key.h"
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
@@ -14,6 +16,7 @@
 #include "sim/route/proposal.h"
 #include "sim/run/cures.h"
 #include "sim/run/longest_way.h"
+#include "sim/run/motion_file.h"
 #include "sim/run/other_stiffness.h"
 #include "sim/run/quick_checks.h"
 #include "sim/run/routing.h"
@@ -68,8 +71,6 @@ pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
   return remedy;
 }
 
-void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
-
 class Previewer {
  public:
   explicit Previewer(const pipeline::Job& job)
@@ -94,11 +95,9 @@ class Previewer {
   void write(pipeline::FileWriter& file) {
     write_heads(file);
     for (std::size_t k = 0; k < moments_.size(); ++k) write_moment(file, k);
-    if (robot_) {
-      std::vector<std::string> names;
-      for (const pipeline::Link& link : job_.robot.links) names.push_back(link.name);
-      file.dataset_attribute("/robot/link_pose", "links", pipeline::joined(names, ","));
-    }
+    if (robot_)
+      file.dataset_attribute("/robot/link_pose", "links",
+                             pipeline::joined(pipeline::mapped(job_.robot.links, &pipeline::Link::name), ","));
     write_spans(file);
     write_scan(file);
     std::optional<pipeline::Remedy> other_places;  // several warnings have the same remedy
@@ -138,25 +137,23 @@ class Previewer {
     const std::vector<int> before = clamp_segments(rod_);
     std::vector<double> lengths;
     std::vector<std::int32_t> dresspacks;
-    std::vector<std::string> names;
     for (int i = 0; i < rod_.segments(); ++i) {
       lengths.push_back(rod_.span_of(i).segment_length);
       dresspacks.push_back(rod_.span_of(i).dresspack);
     }
-    for (const pipeline::MountedDresspack& mounted : job_.dresspacks) names.push_back(mounted.name);
     file.set_axis("segment", lengths.size());
     file.set_axis("clamp", before.size());
-    file.set_axis("dresspack", names.size());
+    file.set_axis("dresspack", job_.dresspacks.size());
     file.set_axis("span", rod_.spans().size());
     if (robot_) {
       file.set_axis("joint", job_.robot.axes());
       file.set_axis("link", job_.robot.links.size());
     }
-    file.append("/segment/length", std::span<const double>(lengths));
-    file.append("/segment/dresspack", std::span<const std::int32_t>(dresspacks));
-    file.append("/dresspack/name", std::span<const std::string>(names));
-    if (before.size() > 2) file.append("/clamp/segment", std::span<const std::int32_t>(before.data(), before.size()));
-    file.append("/program/text", std::span<const std::string>(path_->step_texts()));
+    file.append("/segment/length", lengths);
+    file.append("/segment/dresspack", dresspacks);
+    file.append("/dresspack/name", pipeline::mapped(job_.dresspacks, &pipeline::MountedDresspack::name));
+    if (before.size() > 2) file.append("/clamp/segment", before);
+    file.append("/program/text", path_->step_texts());
   }
 
   /// Returns the curve through the guide rings. The pieces between them share the segments in proportion to their straight
@@ -204,42 +201,36 @@ class Previewer {
       if (is_free(span)) pose.clamps.end(static_cast<int>(2 * span) + 1).position = line.back();
     }
     for (const Frame& clamp : listed_clamps(rod_, pose.clamps)) put(clamps, clamp.position);
-    const double time = path_->program_time(moment.time);
-    file.append("/time", std::span<const double>(&time, 1));
-    file.append("/segment/position", std::span<const double>(centres));
-    file.append("/clamp/position", std::span<const double>(clamps));
-    const std::int32_t step = moment.step;
-    file.append("/program/step", std::span<const std::int32_t>(&step, 1));
+    file.append("/time", std::array{path_->program_time(moment.time)});
+    file.append("/segment/position", centres);
+    file.append("/clamp/position", clamps);
+    file.append("/program/step", std::array{moment.step});
     file.append("/span/way", std::span<const double>(&ways_[k * rod_.spans().size()], rod_.spans().size()));
     if (!robot_) return;
     for (const Frame& link : pose.links) {
       put(links, link.position);
-      links.insert(links.end(),
-                   {link.orientation.w(), link.orientation.x(), link.orientation.y(), link.orientation.z()});
+      put(links, link.orientation);
     }
-    file.append("/robot/link_pose", std::span<const double>(links));
+    file.append("/robot/link_pose", links);
     file.append("/robot/joint_position", std::span<const double>(pose.joints.data(), job_.robot.axes()));
   }
 
   void write_spans(pipeline::FileWriter& file) const {
-    std::vector<std::int32_t> dresspacks;
     std::vector<std::string> names;
-    std::vector<double> lengths, working;
+    std::vector<double> working;
     for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
       const Span& of = rod_.spans()[span];
       const std::size_t piece = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
-      dresspacks.push_back(of.dresspack);
       names.push_back(pipeline::between_clamps(job_.dresspacks[static_cast<std::size_t>(of.dresspack)].routing, piece));
-      lengths.push_back(of.properties.length);
       for (const double longest : {way(0, span), std::max(longest_[span].way, way(0, span))}) {
         const WorkingLength here = working_length(longest);
         working.insert(working.end(), {here.least, here.most});
       }
     }
-    file.append("/span/dresspack", std::span<const std::int32_t>(dresspacks));
-    file.append("/span/name", std::span<const std::string>(names));
-    file.append("/span/length", std::span<const double>(lengths));
-    file.append("/span/working_length", std::span<const double>(working));
+    file.append("/span/dresspack", pipeline::mapped(rod_.spans(), &Span::dresspack));
+    file.append("/span/name", names);
+    file.append("/span/length", pipeline::mapped(rod_.spans(), [](const Span& of) { return of.properties.length; }));
+    file.append("/span/working_length", working);
   }
 
   /// Returns the first pose, those with the nearest and the farthest clamps, and others at equal distances between.
@@ -279,9 +270,9 @@ class Previewer {
       }
     }
     if (spans.empty()) return;
-    file.append("/scan/span", std::span<const std::int32_t>(spans));
-    file.append("/scan/length", std::span<const double>(lengths));
-    file.append("/scan/bend_radius", std::span<const double>(radii));
+    file.append("/scan/span", spans);
+    file.append("/scan/length", lengths);
+    file.append("/scan/bend_radius", radii);
   }
 
   /// Writes the refusal in the words of the simulation; if a span is too short, with the moment of the largest lack.

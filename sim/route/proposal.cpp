@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/threads.h"
 #include "sim/contact/rubbing.h"
 #include "sim/robot/robot.h"
@@ -166,10 +167,9 @@ class Search {
   using Badness = std::tuple<double, double, double, double>;
 
   static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
-    std::vector<Proposal> proposals;
-    for (const Candidate& candidate : found)
-      proposals.push_back({candidate.routing, candidate.screening, candidate.missing, candidate.short_run});
-    return proposals;
+    return pipeline::mapped(found, [](const Candidate& of) {
+      return Proposal{of.routing, of.screening, of.missing, of.short_run};
+    });
   }
 
   /// Makes short runs of the best candidates by geometry. Then changes the best ones a little, many times; the size of the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
@@ -17,6 +18,7 @@ namespace dresslife::sim {
 namespace {
 
 using pipeline::InputError;
+using pipeline::mapped;
 using pipeline::Node;
 
 /// Results for one candidate.
@@ -33,25 +35,22 @@ class Writer {
     std::vector<std::string> names;
     for (int k = 0; k < screened_limits; ++k) names.emplace_back(word(static_cast<ScreenedLimit>(k)));
     file_.set_axis("limit", names.size());
-    file_.append("/limit/name", std::span<const std::string>(names));
+    file_.append("/limit/name", names);
   }
 
   void write(const std::vector<Verdict>& verdicts) {
-    std::vector<std::string> changes, refusals;
-    std::vector<std::int32_t> rejected;
     std::vector<double> beyond, times;
     for (const Verdict& of : verdicts) {
-      changes.push_back(of.changes);
-      refusals.push_back(of.refusal);
-      rejected.push_back(!of.refusal.empty() || of.screening.rejected());
       beyond.insert(beyond.end(), of.screening.beyond.begin(), of.screening.beyond.end());
       times.insert(times.end(), of.screening.time.begin(), of.screening.time.end());
     }
-    file_.append("/candidate/changes", std::span<const std::string>(changes));
-    file_.append("/candidate/refusal", std::span<const std::string>(refusals));
-    file_.append("/candidate/rejected", std::span<const std::int32_t>(rejected));
-    file_.append("/candidate/beyond", std::span<const double>(beyond));
-    file_.append("/candidate/time", std::span<const double>(times));
+    file_.append("/candidate/changes", mapped(verdicts, &Verdict::changes));
+    file_.append("/candidate/refusal", mapped(verdicts, &Verdict::refusal));
+    file_.append("/candidate/rejected", mapped(verdicts, [](const Verdict& of) {
+                   return int{!of.refusal.empty() || of.screening.rejected()};
+                 }));
+    file_.append("/candidate/beyond", beyond);
+    file_.append("/candidate/time", times);
     write_bends(verdicts);
   }
 
@@ -65,7 +64,7 @@ class Writer {
     for (const Verdict& of : verdicts) {
       std::vector<double> row = of.bends;
       row.resize(most);
-      file_.append("/candidate/bend", std::span<const double>(row));
+      file_.append("/candidate/bend", row);
     }
   }
 

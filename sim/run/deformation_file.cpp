@@ -8,6 +8,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/warning_words.h"
 
@@ -68,10 +69,8 @@ class Reader {
     for (const CsvCell& cell : cells) {
       const auto* column = std::ranges::find(known, cell.text, &Column::name);
       if (column == std::end(known)) {
-        std::vector<std::string_view> all;
-        for (const Column& other : known) all.push_back(other.name);
         fail(cell.column, fmt::format("'{}' is no column of a deformation", cell.text),
-             fmt::format("the first line names the columns, of: {}", pipeline::joined(all, ", ")));
+             "the first line names the columns, of: " + pipeline::joined(pipeline::mapped(known, &Column::name), ", "));
       }
       if (!names[column->quantity].empty())
         fail(cell.column, fmt::format("column {} beside {} (both say the same)", cell.text, names[column->quantity]),

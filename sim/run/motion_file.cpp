@@ -1,17 +1,17 @@
 #include "sim/run/motion_file.h"
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 
 #include <array>
 #include <cmath>
 
 namespace dresslife::sim {
-namespace {
+
+using pipeline::mapped;
 
 void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
 void put(std::vector<double>& row, const Quaternion& q) { row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()}); }
-
-}  // namespace
 
 MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& description)
     : file_(file), description_(description) {
@@ -23,16 +23,14 @@ MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& descrip
     file_.set_axis("joint", description.joints);
     file_.set_axis("link", description.link_names.size());
   }
-  file_.append("/segment/length", std::span<const double>(description.segment_length));
-  file_.append("/segment/dresspack", std::span<const std::int32_t>(description.dresspack));
-  file_.append("/dresspack/name", std::span<const std::string>(description.dresspacks));
-  file_.append("/dresspack/bending_stiffness", std::span<const double>(description.bending_stiffness));
-  file_.append("/dresspack/torsional_stiffness", std::span<const double>(description.torsional_stiffness));
-  file_.append("/dresspack/axial_stiffness", std::span<const double>(description.axial_stiffness));
-  if (description.clamp_segment.size() > 2)
-    file_.append("/clamp/segment",
-                 std::span<const std::int32_t>(description.clamp_segment.data(), description.clamp_segment.size()));
-  file_.append("/program/text", std::span<const std::string>(description.step_texts));
+  file_.append("/segment/length", description.segment_length);
+  file_.append("/segment/dresspack", description.dresspack);
+  file_.append("/dresspack/name", description.dresspacks);
+  file_.append("/dresspack/bending_stiffness", description.bending_stiffness);
+  file_.append("/dresspack/torsional_stiffness", description.torsional_stiffness);
+  file_.append("/dresspack/axial_stiffness", description.axial_stiffness);
+  if (description.clamp_segment.size() > 2) file_.append("/clamp/segment", description.clamp_segment);
+  file_.append("/program/text", description.step_texts);
   for (const MotionLoop& loop : description.loops)
     file_.append("/program/loop", std::array{loop.begin, loop.round, static_cast<double>(loop.rounds)});
 }
@@ -56,8 +54,8 @@ void MotionFile::add(const Sample& sample) {
   rows("/clamp/orientation", orientations_);
   if (!sample.travel.empty()) rows("/clamp/travel", sample.travel);
   if (description_.joints > 0) add_robot(sample.pose);
-  file_.append("/program/step", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.step}));
-  file_.append("/contact/count", std::span<const std::int32_t>(std::array<std::int32_t, 1>{sample.contacts}));
+  file_.append("/program/step", std::array{sample.step});
+  file_.append("/contact/count", std::array{sample.contacts});
   rows("/contact/max_depth", std::array{sample.max_depth});
   add_touch(sample.touch);
   rows("/energy", std::array{sample.energy.kinetic, sample.energy.elastic, sample.energy.gravitational});
@@ -79,72 +77,48 @@ void MotionFile::finish(const RunSummary& summary, const std::function<int(doubl
 }
 
 void MotionFile::add_extremes(const std::string& group, const std::vector<Extreme>& extremes) {
-  std::vector<double> values, times;
-  for (const Extreme& extreme : extremes) {
-    values.push_back(extreme.value);
-    times.push_back(extreme.time);
-  }
-  file_.append(group, std::span<const double>(values));
-  file_.append(group + "_time", std::span<const double>(times));
+  file_.append(group, mapped(extremes, &Extreme::value));
+  file_.append(group + "_time", mapped(extremes, &Extreme::time));
 }
 
 void MotionFile::add_checks(const std::vector<Check>& checks, const std::function<int(double)>& step_at) {
-  std::vector<std::string> names, units;
-  std::vector<double> values, limits, times, positions;
-  std::vector<std::int32_t> warnings, steps, dresspacks;
-  for (const Check& check : checks) {
-    names.push_back(check.name);
-    units.push_back(check.unit);
-    values.push_back(check.value);
-    limits.push_back(check.limit);
-    warnings.push_back(check.warning);
-    times.push_back(check.time);
-    steps.push_back(step_at(check.time));
-    positions.push_back(check.position);
-    dresspacks.push_back(check.dresspack);
-  }
-  file_.append("/check/name", std::span<const std::string>(names));
-  file_.append("/check/unit", std::span<const std::string>(units));
-  file_.append("/check/value", std::span<const double>(values));
-  file_.append("/check/limit", std::span<const double>(limits));
-  file_.append("/check/warning", std::span<const std::int32_t>(warnings));
-  file_.append("/check/time", std::span<const double>(times));
-  file_.append("/check/step", std::span<const std::int32_t>(steps));
-  file_.append("/check/position", std::span<const double>(positions));
-  file_.append("/check/dresspack", std::span<const std::int32_t>(dresspacks));
+  file_.append("/check/name", mapped(checks, &Check::name));
+  file_.append("/check/unit", mapped(checks, &Check::unit));
+  file_.append("/check/value", mapped(checks, &Check::value));
+  file_.append("/check/limit", mapped(checks, &Check::limit));
+  file_.append("/check/warning", mapped(checks, [](const Check& check) { return int{check.warning}; }));
+  file_.append("/check/time", mapped(checks, &Check::time));
+  file_.append("/check/step", mapped(checks, [&](const Check& check) { return step_at(check.time); }));
+  file_.append("/check/position", mapped(checks, &Check::position));
+  file_.append("/check/dresspack", mapped(checks, &Check::dresspack));
 }
 
 void MotionFile::add_touch(const Touch& touch) {
-  file_.append("/contact/force", std::span<const double>(touch.sample_force()));
-  file_.append("/contact/rubbing", std::span<const double>(touch.sample_work()));
-  file_.append("/contact/obstacle", std::span<const std::int32_t>(touch.sample_obstacle()));
+  file_.append("/contact/force", touch.sample_force());
+  file_.append("/contact/rubbing", touch.sample_work());
+  file_.append("/contact/obstacle", touch.sample_obstacle());
   obstacles_ = touch.obstacles(), work_ = touch.work(), largest_force_ = touch.largest_force();
 }
 
 void MotionFile::add_touch_of_motion() {
   file_.set_axis("obstacle", obstacles_.size());
-  file_.append("/contact/work", std::span<const double>(work_));
-  file_.append("/contact/largest_force", std::span<const double>(largest_force_));
+  file_.append("/contact/work", work_);
+  file_.append("/contact/largest_force", largest_force_);
   file_.dataset_attribute("/contact/work", "obstacles", pipeline::joined(obstacles_, ","));
 }
 
 void MotionFile::add_rubbed(const RunSummary& summary) {
   if (summary.obstacles.empty()) return;  // a prescribed deformation has no contact
-  std::vector<std::int32_t> dresspack;
-  std::vector<double> place, work, time;
-  std::vector<std::string> obstacle;
-  for (const RubbedPatch& patch : summary.rubbed) {
-    dresspack.push_back(patch.dresspack);
+  const std::vector<RubbedPatch>& rubbed = summary.rubbed;
+  std::vector<double> place;
+  for (const RubbedPatch& patch : rubbed)
     place.insert(place.end(), {patch.position, patch.length, patch.angle, patch.width});
-    obstacle.push_back(summary.obstacles[patch.obstacle]);
-    work.push_back(patch.work);
-    time.push_back(patch.time);
-  }
-  file_.append("/rubbing/dresspack", std::span<const std::int32_t>(dresspack));
-  file_.append("/rubbing/place", std::span<const double>(place));
-  file_.append("/rubbing/obstacle", std::span<const std::string>(obstacle));
-  file_.append("/rubbing/work", std::span<const double>(work));
-  file_.append("/rubbing/time", std::span<const double>(time));
+  file_.append("/rubbing/dresspack", mapped(rubbed, &RubbedPatch::dresspack));
+  file_.append("/rubbing/place", place);
+  file_.append("/rubbing/obstacle",
+               mapped(rubbed, [&](const RubbedPatch& patch) { return summary.obstacles[patch.obstacle]; }));
+  file_.append("/rubbing/work", mapped(rubbed, &RubbedPatch::work));
+  file_.append("/rubbing/time", mapped(rubbed, &RubbedPatch::time));
 }
 
 void MotionFile::add_robot(const Pose& pose) {
@@ -155,7 +129,7 @@ void MotionFile::add_robot(const Pose& pose) {
   }
   file_.append("/robot/joint_position",
                std::span<const double>(pose.joints.data(), static_cast<size_t>(description_.joints)));
-  file_.append("/robot/link_pose", std::span<const double>(poses_));
+  file_.append("/robot/link_pose", poses_);
   if (links_named_) return;
   file_.dataset_attribute("/robot/link_pose", "links", pipeline::joined(description_.link_names, ","));
   links_named_ = true;

@@ -10,6 +10,10 @@
 
 namespace dresslife::sim {
 
+/// Adds the numbers of a vector (x, y, z) or an orientation (w, x, y, z) to a row.
+void put(std::vector<double>& row, const Vector3& v);
+void put(std::vector<double>& row, const Quaternion& q);
+
 class MotionFile {
  public:
   /// Writes the data that are valid for all samples. Precondition: the file outlives this object; the caller commits it.

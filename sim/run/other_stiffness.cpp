@@ -15,6 +15,7 @@
 #include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/uncertainty.h"
 #include "sim/run/cures.h"
+#include "sim/run/motion_file.h"
 #include "sim/run/routing.h"
 
 namespace dresslife::sim {
@@ -34,16 +35,10 @@ struct RecordedMotion {
       put(clamp_position, clamp.position), put(clamp_orientation, clamp.orientation);
   }
   void write(pipeline::FileWriter& file, const std::string& group) const {
-    file.append(group + "/segment/position", std::span<const double>(position));
-    file.append(group + "/segment/orientation", std::span<const double>(orientation));
-    file.append(group + "/clamp/position", std::span<const double>(clamp_position));
-    file.append(group + "/clamp/orientation", std::span<const double>(clamp_orientation));
-  }
-
- private:
-  static void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
-  static void put(std::vector<double>& row, const Quaternion& q) {
-    row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
+    file.append(group + "/segment/position", position);
+    file.append(group + "/segment/orientation", orientation);
+    file.append(group + "/clamp/position", clamp_position);
+    file.append(group + "/clamp/orientation", clamp_orientation);
   }
 };
 

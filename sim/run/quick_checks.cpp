@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
@@ -372,9 +373,7 @@ class QuickChecks {
       std::swap(shapes.front(), shapes[std::ranges::min_element(distances) - distances.begin()]);
       if (!all_shapes) shapes.resize(1);
     }
-    std::vector<Rests> found;
-    for (const TwistFreeClamp& shape : shapes) found.push_back(rests(resting, shape, all));
-    return found;
+    return pipeline::mapped(shapes, [&](const TwistFreeClamp& shape) { return rests(resting, shape, all); });
   }
 
   /// Returns the largest distance of the segments of a span at rest from those beside them in the state of a run [m]; infinite: no

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/cable_pull.h"
 #include "sim/run/deformation_file.h"
 
@@ -154,9 +155,7 @@ class Expansion {
   template <class Bend>
   std::vector<State> along(const Bend& bend) const {
     const double elongation = rig_.weight ? pull_elongation(0) : 0;
-    std::vector<State> states;
-    for (const double position : result_.positions) states.push_back({{0, bend(position), 0}, elongation});
-    return states;
+    return pipeline::mapped(result_.positions, [&](double at) { return State{{0, bend(at), 0}, elongation}; });
   }
   double bent_between(double position, double from, double to) const {
     return ramp((position - from) / edge_) - ramp((position - to) / edge_);

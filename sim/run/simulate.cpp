@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
 #include "sim/run/cures.h"
 #include "sim/run/longest_way.h"
@@ -38,10 +39,7 @@ constexpr double same_step = 1e-9, rounding = 1e-9;  // [s]
 constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
 
 std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
-  std::vector<MotionLimits> limits;
-  for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
-    limits.push_back(sim::limits_of(mounted.dresspack));
-  return limits;
+  return pipeline::mapped(setup.dresspacks, [](const auto& mounted) { return sim::limits_of(mounted.dresspack); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
 
 namespace dresslife::sim {
@@ -42,9 +43,7 @@ const std::vector<Written>& written_types() {
 }
 
 Value numbers(const std::vector<double>& list, const RecordType* type) {
-  std::vector<Value> items;
-  for (double number : list) items.push_back(number_value(number));
-  return list_value(std::move(items), type);
+  return list_value(pipeline::mapped(list, number_value), type);
 }
 
 }  // namespace
