@@ -459,6 +459,7 @@ void expect_lay_factor(Node& dresspack, const Where& where) {
 
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
   apply_lines(job);
+  const bool of_part = path.find("components.") != std::string::npos && !where.file.empty();
   std::vector<Node*> nodes{&job};
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t here = begin;
@@ -473,7 +474,11 @@ void set_value(Node& job, const std::string& path, Node value, const Where& wher
     else if (folder && word != "from" && word != "cable")
       resolve(*nodes.front(), folder, job.where);
     std::vector<Node*> next;
-    for (Node* const node : nodes) step_into(*node, word, where, path, next);
+    for (Node* const node : nodes) {
+      step_into(*node, word, where, path, next);
+      // As in merge(): doubts about a part, such as an overlap, point to the key that changed it, not to its own file.
+      if (begin > path.size() && of_part && node->is_map()) node->where = where;
+    }
     nodes = std::move(next);
   }
   for (Node* const node : nodes) *node = value;

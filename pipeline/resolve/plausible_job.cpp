@@ -1232,10 +1232,10 @@ std::vector<Warning> located(std::vector<Warning> warnings, const Node& document
   for (Warning& warning : warnings) {
     std::smatch found;
     const std::string problem = parts_of(warning.words).problem;
-    if (!warning.where.empty() || !std::regex_search(problem, found, key_words)) continue;
+    if (warning.where.empty() && !std::regex_search(problem, found, key_words)) continue;
     const Node* node = &document;
     bool whole = true;
-    const std::string path = found.str();
+    const std::string path = warning.where.empty() ? found.str() : warning.where;
     for (std::size_t begin = 0; whole && begin < path.size();) {
       const std::size_t end = std::min(path.find_first_of(".[]", begin), path.size());
       const std::string part = path.substr(begin, end - begin);

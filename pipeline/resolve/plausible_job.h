@@ -40,7 +40,8 @@ std::string probable_link(const Clamp& clamp, const Robot& robot);
 /// warns of it. Other limits of such a job say nothing.
 bool clamps_exchanged(const Routing& routing, const Robot& robot);
 
-/// Gives each warning without a place the place in the document of the first key in its problem, such as "strain.gate".
+/// Gives each warning whose place is the path of a key, "motion.tools.1", the place of that key in the document. A warning without a
+/// place gets that of the first key in its problem.
 std::vector<Warning> located(std::vector<Warning> warnings, const Node& document);
 
 /// Returns construction_warnings_at() (pipeline/cable/excess.h) of all dresspacks. Errors: InputError if parts lie in each other.

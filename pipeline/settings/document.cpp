@@ -257,6 +257,20 @@ void place_at(Node& node, const Where& where) {
   }
 }
 
+std::string key_at(const Node& tree, const std::string& place) {
+  const auto inside = [&](const std::string& word, const Where& where, const Node& value) {
+    if (where.text() == place || value.where.text() == place) return word;
+    const std::string rest = key_at(value, place);
+    return rest.empty() ? rest : word + "." + rest;
+  };
+  std::string path;
+  for (const Entry& entry : tree.entries)
+    if (path = inside(entry.key, entry.where, entry.value); !path.empty()) break;
+  for (std::size_t k = 0; path.empty() && k < tree.items.size(); ++k)
+    path = inside(std::to_string(k + 1), tree.items[k].where, tree.items[k]);
+  return path;
+}
+
 Node parse_yaml(const std::string& text, const std::string& file) {
   check_size(text, file);
   YAML::Node document;

@@ -49,6 +49,9 @@ Node read_yaml(const std::filesystem::path& file);
 /// Returns the document as text. parse_yaml() reads it back to the same tree.
 std::string to_yaml(const Node& node);
 
+/// Returns the path of the key or value at a place, "motion.steps.2"; empty: there is none. place: Where::text().
+std::string key_at(const Node& tree, const std::string& place);
+
 /// Returns the folder to which file names at a place are relative: the folder of its file, or the current folder for `--set`.
 std::filesystem::path folder_of(const Where& where);
 

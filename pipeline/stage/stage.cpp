@@ -331,8 +331,25 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Job
   return job;
 }
 
-void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
+namespace {
+
+/// Returns the warnings of a study's job with paths of keys as their places. Its file is the resolved job, which has other lines than
+/// the user's files, and jobs with equal results share them.
+std::vector<Warning> placed_by_key(std::vector<Warning> warnings, const StageCall& call) {
+  const std::filesystem::path& job = call.info.input_is_job ? call.input : call.job_file;
+  const auto in_job = [&](const Warning& warning) { return warning.where.starts_with(job.string() + ":"); };
+  if (!call.of_a_study || std::ranges::none_of(warnings, in_job)) return warnings;
+  const Node document = read_yaml(job);
+  for (Warning& warning : warnings)
+    if (in_job(warning)) warning.where = key_at(document, warning.where);
+  return warnings;
+}
+
+}  // namespace
+
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& of_stage,
                    const FileReader* before) {
+  const std::vector<Warning> own = placed_by_key(of_stage, call);
   for (const Warning& warning : own) say(call, progress, warning);
   if (before && !before->has_attribute("warnings")) return;
   file.attribute("warnings", warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));

@@ -183,6 +183,17 @@ TEST_CASE("set: items of a list count from 1") {
           std::string::npos);
 }
 
+TEST_CASE("set: a part is placed at the key that changed it, so that an overlap names it") {
+  Node job = parse_yaml("dresspack:\n  components:\n    - {name: core, components: [{count: 6}]}\n", "hose.yaml");
+  const auto place = [&](const char* path) { return value_at(job, path)->where.text(); };
+  set_value(job, "dresspack.components.1.components.1.count", scalar("7"), {"job.yaml", 9, 3});
+  CHECK(place("dresspack.components.1.components.1") == "job.yaml:9:3");
+  CHECK(place("dresspack.components.1") == "hose.yaml:3:7");
+  CHECK(place("dresspack") == "hose.yaml:2:3");
+  set_value(job, "dresspack.components.1.count", scalar("7"), {});  // by a search, which has no place
+  CHECK(place("dresspack.components.1") == "hose.yaml:3:7");
+}
+
 TEST_CASE("set: a catalogue entry may be named, and a key inside a named entry set") {
   CHECK(with({"motion=easy", "robot=abb_irb6640_185_280", "routing.base_clamp.link=base_link",
               "routing.tool_clamp.link=link_6", "routing.mounting_pose_deg=[0, 0, 0, 0, 30, 0]"})

@@ -39,7 +39,8 @@ TEST_CASE("laying: cables are loose in a hose whose inside is known, and else on
 
 TEST_CASE("laying: what cannot be is refused with its place and a remedy") {
   using Catch::Contains;
-  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}), Contains("job.yaml:") && Contains("this is a wire"));
+  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}),
+             Contains("--set " + cable) && Contains("this is a wire"));
   CHECK_THAT(refusal({free_cables, cable + "position=loose"}),
              Contains("how much room it has is not known") && Contains("inner_diameter_mm or its play_mm"));
   CHECK_THAT(refusal({free_cables, cable + "position=loose", cable + "play_mm=3", cable + "lay_angle_deg=30"}),

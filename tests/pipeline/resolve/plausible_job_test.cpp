@@ -35,6 +35,17 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
+TEST_CASE("plausible jobs: a warning at the path of a key is located in the user's file, others keep their places") {
+  const Node document = parse_yaml("motion:\n  tools:\n    - {name: gun}\nstrain: {gate: 2}\n", "mine.yaml");
+  const auto place = [&](const std::string& where, const std::string& words) {
+    return located({{WarningKind::motion, where, words}}, document).front().where;
+  };
+  CHECK(place("motion.tools.1", "the quaternion of it") == "mine.yaml:3:7");
+  CHECK(place("motion.tools.2", "strain.gate is 2") == "motion.tools.2");  // in another file
+  CHECK(place("welding.mod:12", "strain.gate is 2") == "welding.mod:12");
+  CHECK(place("", "strain.gate is 2") == "mine.yaml:4:16");
+}
+
 TEST_CASE("plausible jobs: a hose with more pressure than its maker allows at the cell's temperature is warned of") {
   const auto warnings_at = [](double bar, double temperature) {
     Component hose;

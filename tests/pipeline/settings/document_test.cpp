@@ -27,6 +27,16 @@ bool same_tree(const Node& one, const Node& other) {
   return true;
 }
 
+TEST_CASE("document: key_at names the key or value at a place") {
+  const Node tree = parsed("a: 1\nlist:\n  - {name: x}\n  - {name: y, deep: [1, 2]}\n");
+  CHECK(key_at(tree, "f.yaml:1:1") == "a");
+  CHECK(key_at(tree, "f.yaml:1:4") == "a");
+  CHECK(key_at(tree, "f.yaml:4:5") == "list.2");
+  CHECK(key_at(tree, "f.yaml:4:25") == "list.2.deep.2");
+  CHECK(key_at(tree, "f.yaml:4:26").empty());
+  CHECK(key_at(tree, "g.yaml:1:1").empty());
+}
+
 TEST_CASE("document: every key and value knows its line and column, counted from 1") {
   const Node root = parsed("a: 1\nlist:\n  - x\n  - {deep: [2,  3]}\nempty:\n");
   REQUIRE(root.is_map());
