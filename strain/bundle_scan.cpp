@@ -164,7 +164,6 @@ void BundleScan::scan_mixed_groups(std::span<Group> here, const float* waves, st
     for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
 }
 
-/// Adds the strain of wires that slide as lines to the waves of the mean strain.
 void BundleScan::add_lines(bool mixed, std::size_t first, std::size_t count) {
   const int fibres = settings_.fibre_count, kinds = mixed ? ingredients(fibres) : fibres;
   for (std::size_t layer = 0; layer < lines_->size(); ++layer) {

@@ -70,6 +70,7 @@ class BundleScan {
   /// Puts the sliders into the state in which one repeat of the motion leaves them.
   void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting, const DeformationColumns& columns,
               std::size_t samples);
+  /// Adds the strain of wires in long waves to `count` samples of the block, which begins at sample `first`.
   void add_lines(bool mixed, std::size_t first, std::size_t count);
   /// Scans the next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);

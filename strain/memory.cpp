@@ -41,7 +41,7 @@ Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& s
   counts.depth = construction.levels();
   counts.bundles = static_cast<double>(construction.bundles().size());
   counts.most_fibres = std::max(1, settings.surface_fibres);
-  // Bends of the shipped programs have up to six waves.
+  // Cables of the shipped programs bend in up to six waves over their length. Eight waves are on the safe side.
   const std::vector<double> limits(construction.cables().size(), believable_evening * length / 8);
   const std::vector<int> long_waves = LongWaves::layers_of(construction, free, limits);
   std::set<std::pair<int, int>> lines;
@@ -142,8 +142,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     // (cable_paths.h); curvature along a loose cable (segment_rows.h), and the rows of one segment.
     cable_rows += begun * (4 * counts.cables + in_span * 1.5 * counts.rubbing + 2 * counts.loose);
     cable_rows += (begun - laid + 1) * in_span * counts.rubbing / value;  // sides that rub (cable_rubbing.h)
-    // Stores that exceed their room are in files (segment_rows.h): curvature of loose cables and of the hose (evaluation.cpp), and
-    // strains of wires in long waves (long_waves.h), of which each thread also has one line.
+    // Stores that exceed their room are in files (segment_rows.h). They hold the curvature of loose cables and of the hose
+    // (evaluation.cpp), and strains of wires in long waves (long_waves.h). Each thread also holds one wire in long waves.
     const auto kept = [&](double of, double share) { return of * rows * value <= share * room ? of : 0; };
     bent_rows += begun * kept(in_span * counts.loose, 1);
     if (counts.loose < counts.cables) bent_rows += begun * kept(in_span, 1);
